@@ -1,0 +1,54 @@
+# The functions by which every library, program and test of the project is declared,
+# so that flags, aliases and include paths are decided in one place.
+
+add_library(fascicle_flags INTERFACE)
+add_library(fascicle::flags ALIAS fascicle_flags)
+target_compile_features(fascicle_flags INTERFACE cxx_std_20)
+# -ffp-contract=off: results must not depend on where the compiler finds a fused multiply-add.
+target_compile_options(fascicle_flags INTERFACE
+  $<BUILD_INTERFACE:-march=x86-64-v2 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi>)
+target_include_directories(fascicle_flags SYSTEM INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_PREFIX}/include>)
+target_include_directories(fascicle_flags INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<INSTALL_INTERFACE:include/fascicle>)
+target_compile_definitions(fascicle_flags INTERFACE
+  GLM_FORCE_DEPTH_ZERO_TO_ONE=0 GLM_ENABLE_EXPERIMENTAL)
+if(FASCICLE_SANITIZE STREQUAL "address")
+  target_compile_options(fascicle_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_link_options(fascicle_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+elseif(FASCICLE_SANITIZE STREQUAL "thread")
+  target_compile_options(fascicle_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=thread -fno-omit-frame-pointer>)
+  target_link_options(fascicle_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+elseif(NOT FASCICLE_SANITIZE STREQUAL "")
+  message(FATAL_ERROR "FASCICLE_SANITIZE is '${FASCICLE_SANITIZE}'; it takes: (empty), address, thread")
+endif()
+
+# fascicle_library(NAME SOURCES a.cpp ... [PUBLIC lib ...] [PRIVATE lib ...])
+# Makes the static library fascicle_NAME with the alias fascicle::NAME and marks it for install.
+function(fascicle_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(fascicle_${name} STATIC ${arg_SOURCES})
+  add_library(fascicle::${name} ALIAS fascicle_${name})
+  set_target_properties(fascicle_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(fascicle_${name} PUBLIC fascicle::flags ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY FASCICLE_INSTALL_TARGETS fascicle_${name})
+endfunction()
+
+# fascicle_program(NAME SOURCES a.cpp ... [PRIVATE lib ...])
+function(fascicle_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PRIVATE" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE fascicle::flags ${arg_PRIVATE})
+endfunction()
+
+# fascicle_test(NAME SOURCES a_test.cpp ... [PRIVATE lib ...] [LABELS label ...])
+# One GoogleTest program; each of its cases becomes a CTest test. Label `engine` is what the thread sanitizer runs.
+function(fascicle_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PRIVATE;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE fascicle::flags ${arg_PRIVATE} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE FASCICLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
+    PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600)
+endfunction()

@@ -1,0 +1,56 @@
+// A character's bone hierarchy at rest, shared by all characters that use it, and the per-character pose components.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace fascicle {
+
+// Translation (m), rotation (unit quaternion) and scale, applied scale first.
+struct Trs {
+  glm::vec3 translation{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+  glm::vec3 scale{1.0f};
+};
+glm::mat4 to_matrix(const Trs& trs);
+
+struct Skeleton {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> parents;    // -1 for a root; a parent always stands before its children
+  std::vector<Trs> rest_local;          // to the parent
+  std::vector<glm::mat4> rest_world;    // to the character's space
+
+  std::size_t size() const { return names.size(); }
+  // The bone's index, or -1.
+  std::int32_t find(std::string_view name) const;
+};
+
+// Where the character stands in the world. `teleport_count` rises with every jump that must not be interpolated over.
+struct Placement {
+  glm::vec3 position{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+  float scale = 1.0f;
+  std::uint32_t teleport_count = 0;
+};
+
+// Component: the current pose relative to each bone's parent. Written by an animation system.
+struct LocalPose {
+  std::shared_ptr<const Skeleton> skeleton;
+  std::vector<Trs> bones;
+};
+
+// Component: the current bone transforms, bone to world. Written by `compose_bones`, or by a host engine that brings
+// its own animation: this is all that the muscle module needs of a character.
+struct BoneMatrices {
+  std::vector<glm::mat4> world;
+  std::uint32_t teleport_count = 0;
+};
+
+}  // namespace fascicle
