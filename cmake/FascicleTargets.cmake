@@ -42,13 +42,19 @@ function(fascicle_program name)
   target_link_libraries(${name} PRIVATE fascicle::flags ${arg_PRIVATE})
 endfunction()
 
+# What the thread sanitizer's build needs: the test programs with the label `engine`.
+add_custom_target(engine_tests)
+
 # fascicle_test(NAME SOURCES a_test.cpp ... [PRIVATE lib ...] [LABELS label ...])
-# One GoogleTest program; each of its cases becomes a CTest test. Label `engine` is what the thread sanitizer runs.
+# One GoogleTest program; each of its cases becomes a CTest test.
 function(fascicle_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;PRIVATE;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE fascicle::flags ${arg_PRIVATE} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE FASCICLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if("engine" IN_LIST arg_LABELS)
+    add_dependencies(engine_tests ${name})
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600)
 endfunction()
