@@ -1,0 +1,65 @@
+// A character as the game uses it: skeleton, clips, skins and bone meshes from a glTF file or an OpenSim model, and
+// the muscles of its content file, mirrored, checked and built. Immutable, shared by all characters made from it.
+//
+// `load_character` reads NAME.character.json (content/schema/character.schema.json documents every field) and every
+// file that it names. All errors of all those files come back in one go, each with file, line, column, JSON pointer,
+// cause and remedy; `fascicle-check` runs nothing else.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "engine/content/result.hpp"
+#include "modules/muscle/asset/muscle_description.hpp"
+
+namespace fascicle {
+struct Clip;
+struct JointModel;
+struct Skeleton;
+struct SkinAsset;
+struct TriangleMesh;
+}  // namespace fascicle
+
+namespace fascicle::muscle {
+
+struct MuscleAsset;
+
+struct LoadOptions {
+  std::filesystem::path data_folder;  // what `data:` stands for; empty: find_data_folder()
+  // Level of detail for all muscles, in place of what the file says.
+  std::optional<std::uint32_t> section_vertices;           // |C|, even, >= 6
+  std::optional<std::uint32_t> longitudinal_subdivision;   // LSS, 0..6
+};
+
+// A rigid mesh that follows one bone: `transform` takes its vertices to the bone's frame (m).
+struct BoneMesh {
+  std::int32_t bone = -1;
+  glm::mat4 transform{1.0f};
+  std::shared_ptr<const TriangleMesh> mesh;
+};
+
+struct CharacterAsset {
+  std::string name;
+  std::shared_ptr<const Skeleton> skeleton;
+  std::vector<std::shared_ptr<const Clip>> clips;      // of the glTF file; none for a joint skeleton
+  std::shared_ptr<const JointModel> joints;            // null for a glTF skeleton
+  std::vector<BoneMesh> bone_meshes;
+  std::vector<std::shared_ptr<const SkinAsset>> skins;
+  std::vector<MuscleDescription> descriptions;         // in file order; a mirrored muscle follows its original
+  std::shared_ptr<const MuscleAsset> muscles;          // null where the file has none
+  // Anatomical meshes by the muscle's name, in the character's rest space (m).
+  std::map<std::string, std::shared_ptr<const TriangleMesh>> muscle_meshes;
+  std::vector<std::filesystem::path> files;            // everything that was read, the character file first
+};
+
+Result<std::shared_ptr<const CharacterAsset>> load_character(const std::filesystem::path& file,
+                                                             const LoadOptions& options = {});
+
+}  // namespace fascicle::muscle
