@@ -1,0 +1,104 @@
+// The text and graphs over the picture (Dear ImGui): time per system with history, a frame graph, a list of items,
+// switches, pause and single step, and messages such as the errors of a live reload. It knows nothing of the game:
+// an OverlayModel goes in, OverlayActions come out. Works headless too.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/content/result.hpp"
+#include "engine/render/input.hpp"
+
+namespace fascicle {
+
+class Renderer;
+
+struct OverlayTiming {
+  std::string_view name;
+  float milliseconds = 0.0f;
+};
+
+struct OverlaySwitch {
+  const char* name = "";
+  bool on = false;
+  const char* shortcut = "";  // shown beside it
+};
+
+struct OverlaySlider {
+  const char* name = "";
+  float value = 0.0f;
+  float low = 0.0f;
+  float high = 1.0f;
+};
+
+// A row of the item list. Values in the units that the model's headings state.
+struct OverlayItem {
+  std::string_view name;
+  float values[3] = {0.0f, 0.0f, 0.0f};
+  bool visible = true;
+  bool highlighted = false;
+  bool warning = false;  // painted amber
+};
+
+struct OverlayModel {
+  std::string_view title;           // scene
+  std::string_view subtitle;        // who draws: GL renderer, workers
+  float frame_milliseconds = 0.0f;  // wall time of the last frame
+  float budget_milliseconds = 16.7f;
+  std::uint64_t frame = 0;          // simulation step count
+  double time = 0.0;                // simulation time, s
+  bool paused = false;
+  float time_scale = 1.0f;
+  std::uint64_t catch_up_steps = 0;
+  std::span<const OverlayTiming> systems;
+  std::span<const OverlayTiming> gpu;
+  std::span<const OverlayTiming> counts;  // name and plain number ("characters", "draw calls")
+  std::span<const OverlaySwitch> switches;
+  std::span<const OverlaySlider> sliders;
+  const char* item_heading = "item";
+  const char* value_headings[3] = {"", "", ""};  // an empty one leaves the column out
+  std::span<const OverlayItem> items;
+  std::span<const std::string> errors;    // shown in red until gone from the model
+  std::span<const std::string> warnings;
+};
+
+// What the user asked for in this frame; -1: nothing.
+struct OverlayActions {
+  bool toggle_pause = false;
+  bool single_step = false;
+  float time_scale = -1.0f;
+  int switched = -1;              // index of a switch to flip
+  int slider = -1;                // index of a slider moved to slider_value
+  float slider_value = 0.0f;
+  int item_highlighted = -1;      // item clicked
+  int item_visibility = -1;       // item whose visibility to flip
+  bool dismiss_messages = false;
+  bool hide_overlay = false;
+};
+
+class Overlay {
+ public:
+  // Needs the renderer's context current. One overlay at a time.
+  static Result<std::unique_ptr<Overlay>> create();
+  ~Overlay();
+  Overlay(const Overlay&) = delete;
+  Overlay& operator=(const Overlay&) = delete;
+
+  // Lays out and draws over the renderer's picture (after Renderer::draw, before present or read_image).
+  // `delta_seconds` is the wall time since the last frame.
+  OverlayActions draw(const OverlayModel& model, const InputState& input, float delta_seconds, Renderer& renderer);
+
+  // Of the last draw: the pointer or keyboard is the overlay's, not the camera's.
+  bool wants_mouse() const;
+  bool wants_keyboard() const;
+
+ private:
+  struct State;
+  Overlay();
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fascicle
