@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,14 @@ struct Trs {
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec3 scale{1.0f};
 };
-glm::mat4 to_matrix(const Trs& trs);
+inline glm::mat4 to_matrix(const Trs& trs) {
+  glm::mat4 matrix = glm::mat4_cast(trs.rotation);
+  matrix[0] *= trs.scale.x;
+  matrix[1] *= trs.scale.y;
+  matrix[2] *= trs.scale.z;
+  matrix[3] = glm::vec4(trs.translation, 1.0f);
+  return matrix;
+}
 
 struct Skeleton {
   std::vector<std::string> names;
@@ -52,5 +60,15 @@ struct BoneMatrices {
   std::vector<glm::mat4> world;
   std::uint32_t teleport_count = 0;
 };
+
+// Bone to the space that `root` leads to: world[i] = world[parent] * local[i], a root's parent being `root`.
+// All three spans have the skeleton's size.
+void compose(const Skeleton& skeleton, std::span<const Trs> local, const glm::mat4& root, std::span<glm::mat4> world);
+
+// The matrix of a placement: character's space to world.
+glm::mat4 to_matrix(const Placement& placement);
+
+// A pose at rest, with room for all bones.
+LocalPose make_rest_pose(std::shared_ptr<const Skeleton> skeleton);
 
 }  // namespace fascicle

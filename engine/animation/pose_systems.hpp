@@ -1,0 +1,26 @@
+// Systems that play clips and turn poses into bone matrices, one character an entity.
+#pragma once
+
+#include <memory>
+
+#include "engine/animation/clip.hpp"
+#include "engine/animation/skeleton.hpp"
+#include "engine/ecs/access.hpp"
+#include "engine/ecs/view.hpp"
+#include "engine/loop/frame_time.hpp"
+
+namespace fascicle {
+
+// Component: plays a clip on the entity's LocalPose.
+struct ClipPlayer {
+  std::shared_ptr<const Clip> clip;
+  float time = 0.0f;   // s since the clip's start
+  float speed = 1.0f;  // negative plays backwards
+  bool loop = true;
+};
+
+void advance_clips(ecs::View<ClipPlayer> players, ecs::Resource<const FrameTime> time);
+void sample_clips(ecs::View<const ClipPlayer, LocalPose> characters);
+void compose_bones(ecs::View<const LocalPose, const Placement, BoneMatrices> characters);
+
+}  // namespace fascicle

@@ -1,0 +1,23 @@
+// One door to all mesh formats: the extension chooses the reader.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "engine/content/result.hpp"
+#include "engine/content/triangle_mesh.hpp"
+
+namespace fascicle {
+
+// "FILE.vtp", or "FILE.glb#NAME" / "FILE.gltf#NAME", where NAME is that of a mesh or of the node that carries it; without
+// #NAME all meshes of the file are joined. glTF meshes come in the file's rest space (node transforms applied).
+Result<TriangleMesh> read_mesh(const std::string& file);
+
+// Splits "FILE#NAME"; the name is empty where there is none. Only a # after the extension counts.
+struct MeshReference {
+  std::filesystem::path file;
+  std::string name;
+};
+MeshReference split_mesh_reference(const std::string& reference);
+
+}  // namespace fascicle
