@@ -1,0 +1,16 @@
+// Everything that a game needs to give its characters muscles; a musculature's life in one place:
+//
+//   load or fill in descriptions -> build_muscle_asset -> spawn_musculature -> systems each step -> surface_of
+#pragma once
+
+#include "modules/muscle/asset/build_muscle_asset.hpp"
+#include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/asset/muscle_description.hpp"
+#include "modules/muscle/components/action_lines.hpp"
+#include "modules/muscle/components/cross_sections.hpp"
+#include "modules/muscle/components/muscle_measures.hpp"
+#include "modules/muscle/components/muscle_surfaces.hpp"
+#include "modules/muscle/components/musculature.hpp"
+#include "modules/muscle/components/tendons.hpp"
+#include "modules/muscle/muscle_systems.hpp"
+#include "modules/muscle/spawn_muscles.hpp"

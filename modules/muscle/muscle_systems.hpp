@@ -1,0 +1,14 @@
+// The muscle module's systems, in frame order. `add_muscle_systems` is the one ordered list.
+#pragma once
+
+namespace fascicle::ecs {
+class Schedule;
+}
+
+namespace fascicle::muscle {
+
+// Registers, after whatever writes BoneMatrices: drive_action_lines, build_frames, find_tendons, measure_muscles,
+// write_surfaces. The world must have been given its settings by prepare_muscles (spawn_muscles.hpp).
+void add_muscle_systems(ecs::Schedule& schedule);
+
+}  // namespace fascicle::muscle
