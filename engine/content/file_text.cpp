@@ -1,20 +1,19 @@
 #include "engine/content/file_text.hpp"
 
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <fmt/format.h>
-
 namespace fascicle {
 namespace {
 
 Diagnostic file_error(const std::filesystem::path& file, std::string cause, std::string remedy) {
-  return {.file = file.string(), .cause = std::move(cause), .remedy = std::move(remedy)};
+  return {.file = file.string(), .path = {}, .cause = std::move(cause), .remedy = std::move(remedy)};
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -47,7 +46,8 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::uintm
     stream.read(text.data() + used, static_cast<std::streamsize>(kBlock));
     text.resize(used + static_cast<std::size_t>(stream.gcount()));
     if (text.size() > max_bytes) {
-      return file_error(file, fmt::format("larger than {} bytes", max_bytes), "split it, or check that it is the right file");
+      return file_error(file, fmt::format("larger than {} bytes", max_bytes),
+                        "split it, or check that it is the right file");
     }
   }
   if (stream.bad()) return file_error(file, "cannot be read to its end", "check the disk");
@@ -78,11 +78,21 @@ std::string quote_json(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
     switch (c) {
-      case '"': quoted += "\\\""; break;
-      case '\\': quoted += "\\\\"; break;
-      case '\n': quoted += "\\n"; break;
-      case '\r': quoted += "\\r"; break;
-      case '\t': quoted += "\\t"; break;
+      case '"':
+        quoted += "\\\"";
+        break;
+      case '\\':
+        quoted += "\\\\";
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\r':
+        quoted += "\\r";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
       default:
         if (static_cast<unsigned char>(c) < 0x20) {
           quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));

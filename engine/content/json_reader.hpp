@@ -148,7 +148,7 @@ class JsonDocument {
   std::shared_ptr<const detail::JsonTree> tree_;
 };
 
-// Errors: unreadable or larger than 256 MiB, empty, not UTF-8, not JSON (the first syntax error), nested too deeply, and
+// Errors: unreadable or larger than 32 MiB, empty, not UTF-8, not JSON (the first syntax error), nested too deeply, and
 // every duplicate name.
 Result<JsonDocument> read_json_file(const std::filesystem::path& file);
 Result<JsonDocument> parse_json(std::string text, std::string file_name);

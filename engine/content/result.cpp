@@ -1,8 +1,8 @@
 #include "engine/content/result.hpp"
 
-#include <iterator>
-
 #include <fmt/format.h>
+
+#include <iterator>
 
 #include "engine/content/file_text.hpp"
 
@@ -13,9 +13,8 @@ void append_json(std::string& out, const std::vector<Diagnostic>& list) {
   out += '[';
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Diagnostic& d = list[i];
-    fmt::format_to(std::back_inserter(out),
-                   R"({}{{"file":{},"line":{},"column":{},"path":{},"cause":{},"remedy":{}}})", i == 0 ? "" : ",",
-                   quote_json(d.file), d.line, d.column, quote_json(d.path), quote_json(d.cause),
+    fmt::format_to(std::back_inserter(out), R"({}{{"file":{},"line":{},"column":{},"path":{},"cause":{},"remedy":{}}})",
+                   i == 0 ? "" : ",", quote_json(d.file), d.line, d.column, quote_json(d.path), quote_json(d.cause),
                    quote_json(d.remedy));
   }
   out += ']';
