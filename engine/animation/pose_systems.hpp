@@ -5,7 +5,7 @@
 
 #include "engine/animation/clip.hpp"
 #include "engine/animation/skeleton.hpp"
-#include "engine/ecs/access.hpp"
+#include "engine/ecs/resource.hpp"
 #include "engine/ecs/view.hpp"
 #include "engine/loop/frame_time.hpp"
 

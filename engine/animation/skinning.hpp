@@ -47,4 +47,8 @@ void compute_joint_matrices(const SkinAsset& asset, std::span<const glm::mat4> w
 void skin_vertices(const SkinAsset& asset, std::span<const glm::mat4> joint_matrices, std::size_t first,
                    std::size_t last, std::span<glm::vec3> positions, std::span<glm::vec3> normals);
 
+// The same in plain GLM, one vertex after another: what the fast one is tested and measured against.
+void skin_vertices_reference(const SkinAsset& asset, std::span<const glm::mat4> joint_matrices, std::size_t first,
+                             std::size_t last, std::span<glm::vec3> positions, std::span<glm::vec3> normals);
+
 }  // namespace fascicle
