@@ -45,10 +45,11 @@ RigidTransform inverse(const RigidTransform& transform);
 glm::dmat3 rotation_from_xyz(const glm::dvec3& angles);
 
 struct JointCoordinate {
-  enum class Motion { rotation, translation, coupled_kind };  // coupled_kind: drives axes of both kinds (OpenSim: coupled)
+  // What its value measures: rad, m, or (coupled) neither alone, as it drives its axes through other functions than 1:1.
+  enum class Kind { kRotation, kTranslation, kCoupled };
 
   std::string name;
-  Motion motion = Motion::rotation;  // unit rad, or m
+  Kind kind = Kind::kRotation;
   double default_value = 0.0;
   double minimum = 0.0;  // of its range; enforced where clamped
   double maximum = 0.0;
@@ -60,9 +61,10 @@ struct JointCoordinate {
 
 // One axis of a joint: how far (rad or m) as a function of a coordinate; coordinate -1: the function's value at 0.
 struct JointAxis {
-  glm::dvec3 axis{1.0, 0.0, 0.0};  // unit for rotations; not normalised for translations (OpenSim's convention)
+  glm::dvec3 axis{1.0, 0.0, 0.0};       // as written, of any length
   std::int32_t coordinate = -1;
   ScalarFunction function;
+  glm::dvec3 direction{1.0, 0.0, 0.0};  // the axis at unit length; made by `finish_joint_model`
 };
 
 struct Joint {
@@ -96,11 +98,20 @@ struct JointModel {
   std::int32_t find_coordinate(std::string_view name) const;  // index, or -1
 };
 
-// From bones' names (0: ground) and joints in any order, sorts bones so that parents stand before children, remaps
-// joints, bodies and makes the skeleton at rest. Returns what is wrong, one text a fault, and then leaves the model
-// unusable: a bone with no joint or with two, a cycle, a coupling that runs in circles, an index out of range.
-// Every function must be finite over its coordinate's range.
-std::vector<std::string> finish_joint_model(JointModel& model, std::vector<std::string> bones);
+// A fault that `finish_joint_model` found, with the joint, coordinate or bone (as numbered by the caller) that it is at.
+struct JointFault {
+  enum class At { kBone, kJoint, kCoordinate };
+  At at = At::kBone;
+  std::size_t index = 0;
+  std::string cause;
+  std::string remedy;
+};
+
+// Makes a model whole whose `bodies`, `coordinates` and `joints` (in any order, frames as written) the caller has
+// filled in: sorts the bones `bones` (0: the ground) so that parents stand before children, sorts and renumbers joints
+// and bodies to match, and makes frames, axis directions and the skeleton at rest. Where it returns faults the model is unusable: a
+// bone with no joint or with two, a cycle, an axis of no length, a coupling that runs in circles.
+std::vector<JointFault> finish_joint_model(JointModel& model, std::vector<std::string> bones);
 
 // The value that coordinate `index` really has when the free ones are set to `values` (one a coordinate, rad or m):
 // a locked one its default, a coupled one its function, a clamped one within its range. Not finite: the default.

@@ -59,7 +59,7 @@ ScalarFunction ScalarFunction::constant(double value) {
 
 ScalarFunction ScalarFunction::linear(double slope, double intercept) {
   ScalarFunction function;
-  function.kind_ = Kind::linear;
+  function.kind_ = Kind::kLinear;
   function.coefficients_ = {slope, intercept};
   return function;
 }
@@ -67,7 +67,7 @@ ScalarFunction ScalarFunction::linear(double slope, double intercept) {
 ScalarFunction ScalarFunction::polynomial(std::vector<double> coefficients) {
   assert(!coefficients.empty());
   ScalarFunction function;
-  function.kind_ = Kind::polynomial;
+  function.kind_ = Kind::kPolynomial;
   function.coefficients_ = std::move(coefficients);
   return function;
 }
@@ -75,7 +75,7 @@ ScalarFunction ScalarFunction::polynomial(std::vector<double> coefficients) {
 ScalarFunction ScalarFunction::piecewise_linear(std::vector<double> x, std::vector<double> y) {
   assert(fault_of_knots(x, y).empty());
   ScalarFunction function;
-  function.kind_ = Kind::piecewise_linear;
+  function.kind_ = Kind::kPiecewiseLinear;
   function.coefficients_.clear();
   const std::size_t n = x.size();
   function.b_.resize(n);
@@ -92,11 +92,11 @@ ScalarFunction ScalarFunction::spline(std::vector<double> x, std::vector<double>
   assert(fault_of_knots(x, y).empty());
   if (x.size() == 2) {
     ScalarFunction line = piecewise_linear(std::move(x), std::move(y));
-    line.kind_ = Kind::spline;
+    line.kind_ = Kind::kSpline;
     return line;
   }
   ScalarFunction function;
-  function.kind_ = Kind::spline;
+  function.kind_ = Kind::kSpline;
   function.coefficients_.clear();
   const std::size_t n = x.size();
   const std::vector<double> sigma = sixth_of_curvature(x, y);
@@ -125,17 +125,17 @@ std::size_t ScalarFunction::interval(double x) const {
 
 double ScalarFunction::operator()(double x) const {
   switch (kind_) {
-    case Kind::constant:
+    case Kind::kConstant:
       return coefficients_[0];
-    case Kind::linear:
+    case Kind::kLinear:
       return coefficients_[0] * x + coefficients_[1];
-    case Kind::polynomial: {
+    case Kind::kPolynomial: {
       double value = 0.0;
       for (const double coefficient : coefficients_) value = value * x + coefficient;
       return value;
     }
-    case Kind::piecewise_linear:
-    case Kind::spline: {
+    case Kind::kPiecewiseLinear:
+    case Kind::kSpline: {
       if (x <= x_.front()) return y_.front() + b_.front() * (x - x_.front());
       if (x >= x_.back()) return y_.back() + b_.back() * (x - x_.back());
       const std::size_t i = interval(x);
@@ -148,11 +148,11 @@ double ScalarFunction::operator()(double x) const {
 
 double ScalarFunction::derivative(double x) const {
   switch (kind_) {
-    case Kind::constant:
+    case Kind::kConstant:
       return 0.0;
-    case Kind::linear:
+    case Kind::kLinear:
       return coefficients_[0];
-    case Kind::polynomial: {
+    case Kind::kPolynomial: {
       double value = 0.0;
       double slope = 0.0;
       for (const double coefficient : coefficients_) {
@@ -161,8 +161,8 @@ double ScalarFunction::derivative(double x) const {
       }
       return slope;
     }
-    case Kind::piecewise_linear:
-    case Kind::spline: {
+    case Kind::kPiecewiseLinear:
+    case Kind::kSpline: {
       if (x <= x_.front()) return b_.front();
       if (x >= x_.back()) return b_.back();
       const std::size_t i = interval(x);
@@ -173,7 +173,7 @@ double ScalarFunction::derivative(double x) const {
   return 0.0;
 }
 
-bool ScalarFunction::is_zero() const { return kind_ == Kind::constant && coefficients_[0] == 0.0; }
+bool ScalarFunction::is_zero() const { return kind_ == Kind::kConstant && coefficients_[0] == 0.0; }
 
 ScalarFunction ScalarFunction::scaled(double factor) const {
   ScalarFunction result = *this;

@@ -14,7 +14,7 @@ namespace fascicle {
 
 class ScalarFunction {
  public:
-  enum class Kind { constant, linear, polynomial, piecewise_linear, spline };
+  enum class Kind { kConstant, kLinear, kPolynomial, kPiecewiseLinear, kSpline };
 
   ScalarFunction() = default;  // the constant 0
   static ScalarFunction constant(double value);
@@ -41,7 +41,7 @@ class ScalarFunction {
  private:
   std::size_t interval(double x) const;
 
-  Kind kind_ = Kind::constant;
+  Kind kind_ = Kind::kConstant;
   std::vector<double> coefficients_{0.0};
   std::vector<double> x_;
   std::vector<double> y_;

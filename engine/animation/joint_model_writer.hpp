@@ -1,0 +1,14 @@
+// Writes a joint model in the form of character files (content/schema/joints.schema.json). What is read back evaluates
+// to the same bits: numbers are written in their shortest form that reads back exactly.
+#pragma once
+
+#include <string>
+
+#include "engine/animation/joint_model.hpp"
+
+namespace fascicle {
+
+// The object, every line but the first indented by `indent` spaces more; no line break at the end.
+std::string write_joint_model(const JointModel& model, int indent);
+
+}  // namespace fascicle
