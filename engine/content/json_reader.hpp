@@ -163,6 +163,8 @@ class JsonObject {
 
   bool valid() const { return valid_; }
   JsonNode node() const { return node_; }
+  // The names that were asked for so far, in order.
+  std::span<const std::string_view> known() const { return known_; }
   Diagnostics& diagnostics() { return *diagnostics_; }
 
   // `name` must outlive this object (a literal). A required member that is missing is an error at the object.
