@@ -13,6 +13,10 @@ namespace fascicle {
 // #NAME all meshes of the file are joined. glTF meshes come in the file's rest space (node transforms applied).
 Result<TriangleMesh> read_mesh(const std::string& file);
 
+// The same from a glTF file that was read already: one mesh by name, or with an empty name all of them joined.
+struct GltfFile;
+Result<TriangleMesh> extract_mesh(const GltfFile& file, const std::string& name);
+
 // Splits "FILE#NAME"; the name is empty where there is none. Only a # after the extension counts.
 struct MeshReference {
   std::filesystem::path file;
