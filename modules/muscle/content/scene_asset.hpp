@@ -51,6 +51,7 @@ struct SceneAsset {
   std::vector<SceneCharacter> characters;
   SceneCamera camera;
   std::vector<std::filesystem::path> files;  // everything that was read, the scene file first, each once
+  std::filesystem::file_time_type load_started;  // edits after this are not in here
 };
 
 Result<std::shared_ptr<const SceneAsset>> load_scene(const std::filesystem::path& file,

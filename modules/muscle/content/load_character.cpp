@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "engine/animation/joint_model.hpp"
+#include "engine/animation/joint_model_reader.hpp"
+#include "engine/content/gltf_reader.hpp"
+#include "modules/muscle/asset/build_muscle_asset.hpp"
+#include "modules/muscle/content/character_asset.hpp"
+#include "modules/muscle/content/character_file.hpp"
+#include "modules/muscle/content/content_sources.hpp"
+#include "modules/muscle/content/load_parts.hpp"
+#include "modules/muscle/content/migrate.hpp"
+#include "modules/muscle/content/resolve_muscles.hpp"
+
+namespace fascicle::muscle {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A character file with the document that its nodes point into.
+struct OpenFile {
+  JsonDocument document;
+  CharacterFile content;
+};
+
+// The file and those that its muscles come from, the nearest first.
+class MuscleChain {
+ public:
+  MuscleChain(ContentSources& sources, Diagnostics& diagnostics) : sources_(sources), diagnostics_(diagnostics) {}
+
+  // False where the first file cannot be read as JSON.
+  bool open(const fs::path& file) {
+    if (!add(file)) return false;
+    while (true) {
+      const CharacterFile& last = files_.back()->content;
+      if (!last.muscles_from.given()) return true;
+      const std::string& reference = last.muscles_from.text;
+      const std::optional<fs::path> next =
+          sources_.resolve(reference, paths_.back().parent_path(), last.muscles_from.node, diagnostics_);
+      if (!next) return true;
+      if (closes_cycle(*next, last.muscles_from.node) || !add(*next)) return true;
+    }
+  }
+
+  const std::vector<std::unique_ptr<OpenFile>>& files() const { return files_; }
+  const fs::path& path(std::size_t i) const { return paths_[i]; }
+
+ private:
+  bool add(const fs::path& file) {
+    sources_.note(file);
+    Result<JsonDocument> document = read_content_file(file, ContentKind::kCharacter);
+    const bool readable = document.ok();
+    Diagnostics found = std::move(document.diagnostics());
+    if (readable) {
+      auto open = std::make_unique<OpenFile>(OpenFile{std::move(*document), {}});
+      open->content = read_character_file(open->document.root(), {found});
+      files_.push_back(std::move(open));
+      paths_.push_back(file.lexically_normal());
+    }
+    diagnostics_.append(std::move(found));
+    return readable;
+  }
+
+  bool closes_cycle(const fs::path& next, const JsonNode& node) {
+    std::error_code error;
+    const auto same = [&](const fs::path& known) { return fs::equivalent(known, next, error); };
+    const auto start = std::find_if(paths_.begin(), paths_.end(), same);
+    if (start == paths_.end()) return false;
+    std::vector<std::string> chain;
+    for (auto path = start; path != paths_.end(); ++path) chain.push_back(path->filename().string());
+    chain.push_back(start->filename().string());
+    node.error(diagnostics_, fmt::format("muscles_from runs in a circle: {}", fmt::join(chain, " -> ")),
+               "let one of these files hold its muscles itself");
+    return true;
+  }
+
+  ContentSources& sources_;
+  Diagnostics& diagnostics_;
+  std::vector<std::unique_ptr<OpenFile>> files_;
+  std::vector<fs::path> paths_;
+};
+
+void load_skeleton(const CharacterFile& file, const fs::path& base, ContentSources& sources, CharacterAsset& asset,
+                   Diagnostics& diagnostics) {
+  if (file.joints.exists()) {
+    Result<JointModel> model = read_joint_model(file.joints);
+    if (model) {
+      asset.joints = std::make_shared<const JointModel>(std::move(*model));
+      asset.skeleton = asset.joints->skeleton;
+    }
+    diagnostics.append(std::move(model.diagnostics()));
+  } else if (file.gltf.given()) {
+    const std::shared_ptr<const GltfFile> gltf = sources.gltf(file.gltf.text, base, file.gltf.node, diagnostics);
+    if (!gltf) return;
+    // The skeleton and the clips live inside the file's data and keep it alive.
+    asset.skeleton = std::shared_ptr<const Skeleton>(gltf, &gltf->skeleton);
+    for (const Clip& clip : gltf->clips) asset.clips.emplace_back(gltf, &clip);
+  }
+}
+
+void build_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& asset, Diagnostics& diagnostics) {
+  for (const ResolvedMuscle& muscle : resolved) asset.descriptions.push_back(muscle.description);
+  if (asset.descriptions.empty() || !diagnostics.ok()) return;
+  Result<std::shared_ptr<const MuscleAsset>> built =
+      build_muscle_asset(asset.descriptions, asset.skeleton->rest_world);
+  if (built) asset.muscles = *built;
+  diagnostics.append(std::move(built.diagnostics()));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& file, const LoadOptions& options) {
+  ContentSources sources(options.data_folder);
+  return load_character(file, options, sources);
+}
+
+Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& file, const LoadOptions& options,
+                                                             ContentSources& sources) {
+  Diagnostics diagnostics;
+  auto asset = std::make_shared<CharacterAsset>();
+  MuscleChain chain(sources, diagnostics);
+  if (!chain.open(file)) return diagnostics;
+  const CharacterFile& content = chain.files().front()->content;
+  const fs::path base = chain.path(0).parent_path();
+  asset->name = content.name;
+  load_skeleton(content, base, sources, *asset, diagnostics);
+  load_skins(content, base, sources, *asset, diagnostics);
+  load_bone_meshes(content, base, sources, *asset, diagnostics);
+  std::vector<ResolvedMuscle> resolved;
+  if (asset->skeleton) {
+    std::set<std::string> names;
+    for (std::size_t i = chain.files().size(); i-- > 0;) {  // the base's muscles come first
+      resolve_muscles(chain.files()[i]->content, *asset->skeleton, options, names, resolved, diagnostics);
+    }
+  }
+  for (std::size_t i = chain.files().size(); i-- > 0;) {
+    load_muscle_meshes(chain.files()[i]->content, chain.path(i).parent_path(), resolved, sources, *asset, diagnostics);
+  }
+  if (asset->skeleton) build_muscles(resolved, *asset, diagnostics);
+  asset->files = sources.files();
+  if (!diagnostics.ok()) return diagnostics;
+  return Result<std::shared_ptr<const CharacterAsset>>(std::move(asset), std::move(diagnostics));
+}
+
+}  // namespace fascicle::muscle

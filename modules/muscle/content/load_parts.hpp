@@ -1,0 +1,30 @@
+// The steps of `load_character` after the files are read, one kind of part each. All append errors and go on.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "modules/muscle/content/character_asset.hpp"
+#include "modules/muscle/content/character_file.hpp"
+#include "modules/muscle/content/content_sources.hpp"
+#include "modules/muscle/content/resolve_muscles.hpp"
+
+namespace fascicle::muscle {
+
+// As the public load_character, with the files of a larger load; `files` of the answer are all of theirs so far.
+Result<std::shared_ptr<const CharacterAsset>> load_character(const std::filesystem::path& file,
+                                                             const LoadOptions& options, ContentSources& sources);
+
+// `base` is the folder of `file`. Bones of a skin in another glTF file than the skeleton's are found by name.
+void load_skins(const CharacterFile& file, const std::filesystem::path& base, ContentSources& sources,
+                CharacterAsset& asset, Diagnostics& diagnostics);
+void load_bone_meshes(const CharacterFile& file, const std::filesystem::path& base, ContentSources& sources,
+                      CharacterAsset& asset, Diagnostics& diagnostics);
+
+// Meshes of those `muscles` that `file` describes and that name one. A mirror image whose own mesh is not in the file
+// takes its original's, reflected.
+void load_muscle_meshes(const CharacterFile& file, const std::filesystem::path& base,
+                        std::span<const ResolvedMuscle> muscles, ContentSources& sources, CharacterAsset& asset,
+                        Diagnostics& diagnostics);
+
+}  // namespace fascicle::muscle

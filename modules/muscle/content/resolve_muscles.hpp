@@ -1,0 +1,30 @@
+// From the entries of a character file to muscle descriptions: bones looked up, positions taken to their bones'
+// frames, levels and tensions filled in, the other side added, lines checked.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/animation/skeleton.hpp"
+#include "modules/muscle/asset/muscle_description.hpp"
+#include "modules/muscle/content/character_asset.hpp"
+#include "modules/muscle/content/character_file.hpp"
+
+namespace fascicle::muscle {
+
+// A description and what it was made from.
+struct ResolvedMuscle {
+  MuscleDescription description;
+  const CharacterFile* source = nullptr;
+  NameEntry mesh;          // as written; without a node: none
+  NameEntry mirrored_mesh; // mesh of the original, where this muscle is a mirror image
+  int mirror_axis = -1;    // of the reflection that made it, or -1
+};
+
+// Appends the muscles of one file, each mirrored one after its original, and all errors. `names` holds the names of
+// muscles so far and grows.
+void resolve_muscles(const CharacterFile& file, const Skeleton& skeleton, const LoadOptions& options,
+                     std::set<std::string>& names, std::vector<ResolvedMuscle>& muscles, Diagnostics& diagnostics);
+
+}  // namespace fascicle::muscle
