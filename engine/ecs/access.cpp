@@ -14,11 +14,10 @@ void Access::declare(AccessEntry entry) {
       return;
     }
   }
-  const auto place = std::upper_bound(entries_.begin(), entries_.end(), entry,
-                                      [](const AccessEntry& a, const AccessEntry& b) {
-                                        return std::tie(a.type->name, a.type->full_name) < std::tie(b.type->name, b.type->full_name);
-                                      });
-  entries_.insert(place, entry);
+  const auto by_name = [](const AccessEntry& a, const AccessEntry& b) {
+    return std::tie(a.type->name, a.type->full_name) < std::tie(b.type->name, b.type->full_name);
+  };
+  entries_.insert(std::upper_bound(entries_.begin(), entries_.end(), entry, by_name), entry);
 }
 
 std::vector<std::string_view> find_conflicts(const Access& earlier, const Access& later) {

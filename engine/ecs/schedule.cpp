@@ -183,7 +183,8 @@ class ScheduleRun {
     const std::int64_t now = monotonic_ns();
     for (SystemTiming& timing : frame_.timings) {
       const bool barrier = &timing >= frame_.timings.data() + frame_.nodes.size();
-      if (timing.stage > static_cast<int>(failed_stage) || (barrier && timing.stage == static_cast<int>(failed_stage))) {
+      const int failed = static_cast<int>(failed_stage);
+      if (timing.stage > failed || (barrier && timing.stage == failed)) {
         timing.start_ns = timing.end_ns = now;
       }
     }
