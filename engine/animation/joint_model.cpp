@@ -56,16 +56,18 @@ bool find_directions(std::vector<JointAxis>& axes) {
   return true;
 }
 
+// Couplings in a circle, or in chains too long for a recursive evaluation.
 void find_coupling_circles(const JointModel& model, std::vector<JointFault>& faults) {
+  constexpr int kLongestChain = 16;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
-    std::int32_t at = model.coordinates[i].driver;
-    for (std::size_t steps = 0; at >= 0; ++steps, at = model.coordinates[static_cast<std::size_t>(at)].driver) {
-      if (steps <= model.coordinates.size() && at != static_cast<std::int32_t>(i)) continue;
-      if (at == static_cast<std::int32_t>(i)) {
-        faults.push_back({JointFault::At::kCoordinate, i,
-                          fmt::format("the coordinate '{}' is coupled to itself, in a circle", model.coordinates[i].name),
-                          "leave one coordinate of the circle free"});
-      }
+    const JointCoordinate& coordinate = model.coordinates[i];
+    std::int32_t at = coordinate.driver;
+    for (int steps = 0; at >= 0; ++steps, at = model.coordinates[static_cast<std::size_t>(at)].driver) {
+      if (steps < kLongestChain) continue;
+      faults.push_back({JointFault::At::kCoordinate, i,
+                        fmt::format("the coordinate '{}' is coupled in a circle, or through more than {} others",
+                                    coordinate.name, kLongestChain),
+                        "let the chain of couplings end at a free coordinate"});
       break;
     }
   }
