@@ -21,7 +21,8 @@ class GpuTimer {
   GpuTimer(const GpuTimer&) = delete;
   GpuTimer& operator=(const GpuTimer&) = delete;
 
-  // Collects results that are ready and starts a frame. A frame whose slot is still pending is not measured.
+  // Ends the last frame, collects results that are ready and starts a frame. One whose slot is still pending is not
+  // measured.
   void begin_frame();
   // Passes follow each other, they don't nest. `name` must be the same object in every frame (a literal).
   void begin_pass(const char* name);

@@ -1,0 +1,40 @@
+// Lines and points: line sets that follow the simulation's steps (action lines), and immediate ones for one frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/render/deforming_batch.hpp"
+
+namespace fascicle {
+
+class LineBatch {
+ public:
+  explicit LineBatch(GpuMemory& memory);
+
+  DeformingBatch<LineHandle>& sets() { return sets_; }
+  void add_line(const glm::vec3& from, const glm::vec3& to, std::uint32_t colour);
+  void add_point(const glm::vec3& at, std::uint32_t colour, float size);
+
+  void prepare(const StepClock& clock);
+  bool empty() const { return sets_.empty() && lines_.empty() && points_.empty(); }
+  bool has_points() const { return !points_.empty(); }
+  // The program is bound by the caller. Return the draw calls issued.
+  std::uint32_t draw_lines(const StepClock& clock);
+  std::uint32_t draw_points();
+  // Forgets the immediate lines and points.
+  void clear_immediate();
+
+ private:
+  struct Point {
+    LineVertex vertex;
+    float size = 0.0f;  // pixels
+  };
+  DeformingBatch<LineHandle> sets_;
+  std::vector<LineVertex> lines_;
+  std::vector<Point> points_;
+  StreamBuffer line_buffer_, point_buffer_;
+  GlVertexArray set_array_, line_array_, point_array_;
+};
+
+}  // namespace fascicle

@@ -1,0 +1,2 @@
+// Depth alone: shadow map and the skin's first pass.
+void main() {}
