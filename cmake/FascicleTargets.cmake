@@ -24,15 +24,17 @@ elseif(NOT FASCICLE_SANITIZE STREQUAL "")
   message(FATAL_ERROR "FASCICLE_SANITIZE is '${FASCICLE_SANITIZE}'; it takes: (empty), address, thread")
 endif()
 
-# fascicle_library(NAME SOURCES a.cpp ... [PUBLIC lib ...] [PRIVATE lib ...])
-# Makes the static library fascicle_NAME with the alias fascicle::NAME and marks it for install.
+# fascicle_library(NAME [LOCAL] SOURCES a.cpp ... [PUBLIC lib ...] [PRIVATE lib ...])
+# Makes the static library fascicle_NAME with the alias fascicle::NAME and, unless LOCAL, marks it for install.
 function(fascicle_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "LOCAL" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(fascicle_${name} STATIC ${arg_SOURCES})
   add_library(fascicle::${name} ALIAS fascicle_${name})
   set_target_properties(fascicle_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(fascicle_${name} PUBLIC fascicle::flags ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  set_property(GLOBAL APPEND PROPERTY FASCICLE_INSTALL_TARGETS fascicle_${name})
+  if(NOT arg_LOCAL)
+    set_property(GLOBAL APPEND PROPERTY FASCICLE_INSTALL_TARGETS fascicle_${name})
+  endif()
 endfunction()
 
 # fascicle_program(NAME SOURCES a.cpp ... [PRIVATE lib ...])

@@ -1,0 +1,34 @@
+// A page of pictures of one run: frames from left to right, four sides from top to bottom, first with the skin and then
+// without. Authors open it to look for muscles that flip, twist, leave their bones or pierce them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "engine/render/renderer.hpp"
+
+namespace fascicle::game {
+
+class ContactSheet {
+ public:
+  // Takes `columns` frames, evenly spread over `frames`, from `sides` directions around the camera's target.
+  ContactSheet(OrbitCamera camera, std::uint64_t frames, int columns = 8, int sides = 4);
+
+  // True when frame `frame` (from 1) belongs on the sheet.
+  bool wants(std::uint64_t frame) const;
+  // Draws it from all sides. The target follows `offset` (a character that walks away).
+  void take(Renderer& renderer, const glm::vec3& offset);
+  // Writes the page.
+  Result<std::size_t> write(const std::filesystem::path& file) const;
+
+ private:
+  OrbitCamera camera_;
+  std::uint64_t frames_;
+  int columns_;
+  int sides_;
+  std::vector<std::vector<Image>> with_skin_;     // by side, then frame
+  std::vector<std::vector<Image>> without_skin_;
+};
+
+}  // namespace fascicle::game

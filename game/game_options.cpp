@@ -1,0 +1,80 @@
+#include "game/game_options.hpp"
+
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+
+namespace fascicle::game {
+namespace {
+
+// FILE or FILE@FRAME. An '@' that no whole number follows belongs to the file's name.
+ScreenshotRequest parse_screenshot(const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  if (at != std::string::npos && at + 1 < text.size()) {
+    std::uint64_t frame = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + at + 1, end, frame);
+    if (error == std::errc{} && stop == end && frame > 0) return {text.substr(0, at), frame};
+  }
+  return {text, std::nullopt};
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  ParsedOptions parsed;
+  GameOptions& options = parsed.options;
+  std::string screenshot;
+  bool no_draw = false;
+
+  CLI::App app("Fascicle: muscles on a walking character. Without arguments: the walker, in a window.", "fascicle");
+  app.add_option("--scene", options.scene, "A name in content/scenes (walker, gait2392, cesium-man) or a scene file");
+  app.add_flag("--headless", options.headless, "No window: run, then print the time per system");
+  app.add_option("--frames", options.frames, "Steps to run (headless: the scene's own length by default)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000}));
+  app.add_option("--threads", options.threads, "Workers (default: one for each core)")->check(CLI::Range(1, 1024));
+  app.add_option("--characters", options.copies, "How many characters: the scene's are repeated side by side")
+      ->check(CLI::Range(1, 100'000));
+  app.add_flag("--no-draw", no_draw, "Simulate only: no GL, and no skinning of meshes that nobody would see");
+  app.add_option("--simd", options.simd, "Force the instruction set of the muscle kernels")
+      ->check(CLI::IsMember({"portable", "avx2", "avx512"}));
+  app.add_option("--stats", options.stats_file, "Write the time per system (.csv, .json, else a table)");
+  app.add_flag("--detail", options.detail, "Statistics per character and per muscle as well");
+  app.add_option("--trace", options.trace_file, "Write a Chrome trace, which ui.perfetto.dev opens");
+  app.add_option("--report", options.report_file, "Write JSON with a value per frame of every metric");
+  app.add_option("--screenshot", screenshot, "Write a PNG of the last frame, or of one: FILE[@FRAME]");
+  app.add_option("--contact-sheet", options.contact_sheet_file,
+                 "Write a PNG with the cycle's frames from four sides, with and without skin");
+  app.add_flag("--hash", options.hash, "Print a hash of the last frame's state");
+  app.add_flag("--schedule", options.print_schedule, "Print the systems, their order and what they access, and stop");
+  app.add_flag("--schedule-dot", options.print_dot, "The same as a graph for Graphviz");
+  app.add_option("--width", options.width, "Picture or window width, pixels")->check(CLI::Range(16, 8192));
+  app.add_option("--height", options.height, "Picture or window height, pixels")->check(CLI::Range(16, 8192));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    parsed.exit_status = app.exit(error) == 0 ? kExitOk : kExitUsage;
+    return parsed;
+  }
+  options.draw = !no_draw;
+  if (!screenshot.empty()) options.screenshot = parse_screenshot(screenshot);
+  if (!options.draw && (options.screenshot || !options.contact_sheet_file.empty())) {
+    std::fprintf(stderr, "--screenshot and --contact-sheet need drawing; leave out --no-draw\n");
+    parsed.exit_status = kExitUsage;
+  }
+  if (!options.draw && !options.headless) {
+    std::fprintf(stderr, "--no-draw leaves nothing to show in a window; add --headless\n");
+    parsed.exit_status = kExitUsage;
+  }
+  if (options.screenshot && options.screenshot->frame && options.frames &&
+      *options.screenshot->frame > *options.frames) {
+    std::fprintf(stderr, "--screenshot asks for frame %llu of %llu; ask for an earlier one or more --frames\n",
+                 static_cast<unsigned long long>(*options.screenshot->frame),
+                 static_cast<unsigned long long>(*options.frames));
+    parsed.exit_status = kExitUsage;
+  }
+  return parsed;
+}
+
+}  // namespace fascicle::game

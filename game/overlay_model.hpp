@@ -1,0 +1,65 @@
+// Gathers what the overlay shows from the running simulation, and keeps the texts that it points to.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/render/overlay.hpp"
+#include "engine/render/renderer.hpp"
+#include "game/simulation.hpp"
+
+namespace fascicle::game {
+
+// The overlay's switches, in this order; each flips a field of the DrawView.
+struct ViewSwitch {
+  const char* name;
+  const char* shortcut;
+  Key key;
+  bool DrawView::* field;
+};
+inline constexpr std::array<ViewSwitch, 7> kViewSwitches = {{
+    {"skin", "S", Key::s, &DrawView::skins},
+    {"bones", "B", Key::b, &DrawView::meshes},
+    {"muscles", "M", Key::m, &DrawView::strips},
+    {"action lines", "A", Key::a, &DrawView::lines},
+    {"sections", "C", Key::c, &DrawView::rings},
+    {"tendons", "T", Key::t, &DrawView::tendons},
+    {"ground", "G", Key::g, &DrawView::ground},
+}};
+
+class OverlayFeed {
+ public:
+  OverlayFeed(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+
+  // Call after each simulation step: smooths the systems' times.
+  void record_step(const ecs::Schedule& schedule);
+  // The model of this frame; what it points to lives until the next call. `shown` is the character whose muscles are listed.
+  const OverlayModel& build(Simulation& simulation, const Renderer& renderer, const DrawView& view,
+                            float frame_milliseconds, std::size_t shown);
+
+  // Messages of a live reload, until the next one or until dismissed.
+  void set_messages(const Diagnostics& diagnostics);
+  void clear_messages();
+  bool has_errors() const { return !errors_.empty(); }
+
+  // Per muscle of the shown character.
+  struct ItemState {
+    bool visible = true;
+    bool highlighted = false;
+  };
+  std::vector<ItemState>& item_states() { return item_states_; }
+
+ private:
+  std::string title_, subtitle_;
+  std::vector<std::string> errors_, warnings_;
+  std::vector<float> smoothed_ms_;  // one a system
+  std::vector<OverlayTiming> systems_, gpu_, counts_;
+  std::vector<OverlaySwitch> switches_;
+  std::array<OverlaySlider, 1> sliders_;
+  std::vector<OverlayItem> items_;
+  std::vector<ItemState> item_states_;
+  OverlayModel model_;
+};
+
+}  // namespace fascicle::game

@@ -1,0 +1,106 @@
+#include "game/run_headless.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "engine/ecs/monotonic_clock.hpp"
+#include "game/contact_sheet.hpp"
+#include "game/run_recorder.hpp"
+#include "game/scene_view.hpp"
+#include "game/screen.hpp"
+#include "game/simulation.hpp"
+
+namespace fascicle::game {
+namespace {
+
+constexpr std::int64_t kProgressAfterNs = 2'000'000'000;  // a run this long shows how far it is
+constexpr std::int64_t kProgressEveryNs = 500'000'000;
+
+// "frame 120 of 300" on a terminal, rewritten in place; silent in a pipe and for short runs.
+class Progress {
+ public:
+  explicit Progress(std::uint64_t total) : total_(total), start_ns_(monotonic_ns()), shown_ns_(start_ns_) {}
+  void show(std::uint64_t frame) {
+    if (!terminal_) return;
+    const std::int64_t now = monotonic_ns();
+    if (now - start_ns_ < kProgressAfterNs || now - shown_ns_ < kProgressEveryNs) return;
+    shown_ns_ = now;
+    shown_ = true;
+    std::fprintf(stderr, "\rframe %llu of %llu ", static_cast<unsigned long long>(frame),
+                 static_cast<unsigned long long>(total_));
+  }
+  void done() const {
+    if (shown_) std::fprintf(stderr, "\r                                        \r");
+  }
+
+ private:
+  std::uint64_t total_;
+  std::int64_t start_ns_, shown_ns_;
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool shown_ = false;
+};
+
+}  // namespace
+
+int run_headless(const GameOptions& options, std::shared_ptr<const muscle::SceneAsset> scene) {
+  std::unique_ptr<Screen> screen;
+  if (options.draw) {
+    auto opened = open_headless(options.width, options.height);
+    if (!opened) {
+      std::fputs(to_text(opened.diagnostics()).c_str(), stderr);
+      std::fprintf(stderr, "Nothing can be drawn here; --no-draw runs the simulation alone.\n");
+      return kExitNoOutput;
+    }
+    screen = std::move(*opened);
+  }
+
+  Simulation simulation(scene, {.workers = options.threads,
+                                .copies = options.copies,
+                                .simd = parse_simd_level(options.simd).value_or(detect_simd()),
+                                .skin_meshes = options.draw});
+  std::optional<SceneView> view;
+  DrawView draw_view;
+  if (screen) {
+    view.emplace(simulation, *screen->renderer);
+    draw_view.camera = view->scene_camera();
+    draw_view.lines = false;
+  }
+
+  const std::uint64_t frames = options.frames.value_or(static_cast<std::uint64_t>(scene->frames));
+  std::optional<ContactSheet> sheet;
+  if (!options.contact_sheet_file.empty()) sheet.emplace(draw_view.camera, frames);
+  RunRecorder recorder(options, simulation, frames);
+  Progress progress(frames);
+
+  for (std::uint64_t frame = 1; frame <= frames; ++frame) {
+    recorder.begin_frame();
+    if (view) view->begin_step();
+    simulation.step();
+    recorder.record_step(simulation);
+    if (screen) {
+      draw_view.camera.target = scene->camera.target + simulation.travel();
+      const std::int64_t start = monotonic_ns();
+      screen->renderer->draw(draw_view);
+      recorder.record_draw(start, monotonic_ns(), *screen->renderer);
+    }
+    recorder.end_frame(simulation);
+    if (screen && recorder.wants_picture(simulation, frame == frames)) recorder.take_picture(*screen->renderer);
+    if (sheet && sheet->wants(frame)) sheet->take(*screen->renderer, simulation.travel());
+    progress.show(frame);
+  }
+  progress.done();
+
+  int status = recorder.finish(simulation);
+  if (sheet) {
+    const auto written = sheet->write(options.contact_sheet_file);
+    if (!written) {
+      std::fputs(to_text(written.diagnostics()).c_str(), stderr);
+      status = kExitNoOutput;
+    }
+  }
+  return status;
+}
+
+}  // namespace fascicle::game

@@ -1,0 +1,124 @@
+#include "game/run_recorder.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "engine/ecs/monotonic_clock.hpp"
+#include "engine/loop/write_file.hpp"
+#include "modules/muscle/muscle.hpp"
+
+namespace fascicle::game {
+namespace {
+
+// A short run still has frames to count; a long one leaves out what caches and clocks need to settle.
+std::size_t warm_up_frames(std::uint64_t total) {
+  return total == 0 ? 30 : static_cast<std::size_t>(std::min<std::uint64_t>(30, total / 10));
+}
+
+void complain(std::string_view what, const std::string& file, const std::error_code& error) {
+  std::fprintf(stderr, "%s: the %.*s could not be written: %s; check that the folder exists and is writable\n",
+               file.c_str(), static_cast<int>(what.size()), what.data(), error.message().c_str());
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const GameOptions& options, Simulation& simulation, std::uint64_t total_frames)
+    : options_(options), stats_({.warm_up_frames = warm_up_frames(total_frames)}) {
+  if (!options.trace_file.empty()) trace_.emplace();
+  stats_.set_note("scene", simulation.scene().name);
+  stats_.set_note("workers", fmt::format("{} of {} cores", simulation.workers().workers(), parallel::hardware_workers()));
+  stats_.set_note("simd", std::string(to_string(simulation.simd())));
+  stats_.set_note("characters", std::to_string(simulation.characters().size()));
+  if (options.detail) announce_items(simulation);
+}
+
+void RunRecorder::announce_items(Simulation& simulation) {
+  CostLedger& ledger = simulation.world().resource<CostLedger>();
+  std::size_t number = 0;
+  for (const SpawnedCharacter& character : simulation.characters()) {
+    ++number;
+    if (character.musculature == ecs::kNoEntity) continue;
+    std::vector<std::string> muscles;
+    for (const muscle::MuscleLayout& layout : character.asset->muscles->muscles) muscles.push_back(layout.name);
+    ledger.add_owner(character.musculature, fmt::format("{} {}", character.asset->name, number), muscles);
+  }
+  ledger.set_enabled(true);
+}
+
+void RunRecorder::begin_frame() {
+  stats_.begin_frame();
+  frame_start_ns_ = monotonic_ns();
+}
+
+void RunRecorder::record_step(Simulation& simulation) {
+  const auto timings = simulation.schedule().timings();
+  stats_.record(timings);
+  if (trace_) trace_->record(timings);
+  if (!options_.report_file.empty()) {
+    report_.begin_frame();
+    simulation.record_metrics(report_);
+  }
+  if (options_.detail) simulation.world().resource<CostLedger>().end_frame(stats_.warming_up());
+}
+
+void RunRecorder::record_draw(std::int64_t start_ns, std::int64_t end_ns, Renderer& renderer) {
+  stats_.record_span("draw", end_ns - start_ns);
+  if (trace_) trace_->add_complete("draw", "render", start_ns, end_ns, 0);
+  if (renderer.timer().measured_frame() == gpu_frame_) return;
+  gpu_frame_ = renderer.timer().measured_frame();
+  for (const GpuTime& pass : renderer.gpu_times()) {
+    stats_.record_gpu(pass.name, static_cast<std::int64_t>(pass.milliseconds * 1e6));
+    if (trace_) trace_->add_counter("gpu " + pass.name + " ms", end_ns, pass.milliseconds);
+  }
+}
+
+void RunRecorder::end_frame(const Simulation& simulation) {
+  ++frames_;
+  stats_.set_clamped_steps(simulation.clamped_steps());
+  stats_.end_frame();
+  if (trace_) trace_->add_frame(frames_, frame_start_ns_, monotonic_ns());
+}
+
+bool RunRecorder::wants_picture(const Simulation& simulation, bool is_last) const {
+  if (!options_.screenshot) return false;
+  return options_.screenshot->frame ? *options_.screenshot->frame == simulation.steps() : is_last;
+}
+
+void RunRecorder::take_picture(Renderer& renderer) {
+  const auto written = write_png(renderer.read_image(), options_.screenshot->file);
+  if (!written) std::fputs(to_text(written.diagnostics()).c_str(), stderr);
+  picture_failed_ = !written.ok();
+}
+
+bool RunRecorder::write_report(const Simulation& simulation) const {
+  const std::error_code error =
+      write_file_atomically(options_.report_file, report_.to_json(simulation.scene().name, simulation.hash()));
+  if (error) complain("report", options_.report_file, error);
+  return !error;
+}
+
+int RunRecorder::finish(Simulation& simulation) {
+  bool written = !picture_failed_;
+  stats_.set_memory(simulation.world().memory_by_component());
+  if (options_.detail) stats_.add_rows(simulation.world().resource<CostLedger>().statistics());
+  if (!options_.stats_file.empty()) {
+    if (const std::error_code error = stats_.write(options_.stats_file)) {
+      complain("statistics", options_.stats_file, error);
+      written = false;
+    }
+  }
+  if (trace_) {
+    if (const std::error_code error = trace_->write(options_.trace_file)) {
+      complain("trace", options_.trace_file, error);
+      written = false;
+    }
+  }
+  if (!options_.report_file.empty()) written = write_report(simulation) && written;
+  if (options_.headless) std::fputs(stats_.to_table().c_str(), stdout);
+  if (options_.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(simulation.hash()));
+  return written ? kExitOk : kExitNoOutput;
+}
+
+}  // namespace fascicle::game

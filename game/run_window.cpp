@@ -1,0 +1,167 @@
+#include "game/run_window.hpp"
+
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "engine/ecs/monotonic_clock.hpp"
+#include "game/overlay_model.hpp"
+#include "game/run_recorder.hpp"
+#include "game/scene_view.hpp"
+#include "game/screen.hpp"
+#include "game/simulation.hpp"
+#include "modules/muscle/content/content_reloader.hpp"
+#include "modules/muscle/muscle.hpp"
+
+namespace fascicle::game {
+namespace {
+
+class WindowRun {
+ public:
+  WindowRun(const GameOptions& options, const std::filesystem::path& scene_file,
+            std::shared_ptr<const muscle::SceneAsset> scene, Screen& screen)
+      : options_(options),
+        screen_(screen),
+        reloader_(scene_file, scene),
+        simulation_(scene, {.workers = options.threads,
+                            .copies = options.copies,
+                            .simd = parse_simd_level(options.simd).value_or(detect_simd()),
+                            .skin_meshes = true}),
+        scene_view_(simulation_, *screen.renderer),
+        feed_(scene->name, fmt::format("{}, {} workers", screen.info.renderer, simulation_.workers().workers())),
+        recorder_(options, simulation_, options.frames.value_or(0)) {
+    view_.camera = scene_view_.scene_camera();
+    view_.lines = false;
+  }
+
+  int run() {
+    auto last = std::chrono::steady_clock::now();
+    while (!screen_.window->should_close()) {
+      const auto now = std::chrono::steady_clock::now();
+      const double seconds = std::chrono::duration<double>(now - last).count();
+      last = now;
+      frame(seconds);
+      if (options_.frames && simulation_.steps() >= *options_.frames) break;
+    }
+    return recorder_.finish(simulation_);
+  }
+
+ private:
+  void frame(double seconds) {
+    const InputState& input = screen_.window->poll();
+    const glm::ivec2 size = screen_.window->framebuffer_size();
+    if (size.x > 0 && size.y > 0) screen_.renderer->resize(size.x, size.y);
+
+    poll_reload();
+    recorder_.begin_frame();
+    const int steps = simulation_.loop().begin_frame(seconds);
+    for (int i = 0; i < steps; ++i) {
+      scene_view_.begin_step();
+      simulation_.step();
+      feed_.record_step(simulation_.schedule());
+      recorder_.record_step(simulation_);
+    }
+
+    if (!screen_.overlay->wants_mouse()) apply_input(input, glm::vec2(size), view_.camera);
+    if (!screen_.overlay->wants_keyboard()) handle_keys(input);
+    view_.alpha = simulation_.loop().paused() ? 1.0f : simulation_.loop().alpha();
+    const std::int64_t draw_start = monotonic_ns();
+    screen_.renderer->draw(view_);
+    if (show_overlay_) {
+      const OverlayModel& model = feed_.build(simulation_, *screen_.renderer, view_,
+                                              static_cast<float>(seconds * 1e3), shown_character_);
+      apply(screen_.overlay->draw(model, input, static_cast<float>(seconds), *screen_.renderer));
+    }
+    screen_.renderer->present(size.x, size.y);
+    recorder_.record_draw(draw_start, monotonic_ns(), *screen_.renderer);
+    recorder_.end_frame(simulation_);
+    if (steps > 0 && recorder_.wants_picture(simulation_, options_.frames == simulation_.steps())) {
+      recorder_.take_picture(*screen_.renderer);
+    }
+    screen_.window->swap();
+  }
+
+  void poll_reload() {
+    auto outcome = reloader_.poll();
+    if (!outcome) return;
+    feed_.set_messages(outcome->diagnostics);
+    if (!outcome->scene) {
+      std::fputs(to_text(outcome->diagnostics).c_str(), stderr);
+      return;
+    }
+    scene_view_.release();
+    simulation_.swap_scene(outcome->scene);
+    scene_view_.attach();
+    // The new things show nothing until a step has written them.
+    scene_view_.begin_step();
+    simulation_.step();
+    std::fprintf(stderr, "content reloaded\n");
+  }
+
+  void handle_keys(const InputState& input) {
+    if (input.was_pressed(Key::space)) toggle_pause();
+    if (input.was_pressed(Key::period)) simulation_.loop().request_single_step();
+    if (input.was_pressed(Key::h)) show_overlay_ = !show_overlay_;
+    if (input.was_pressed(Key::r)) view_.camera = scene_view_.scene_camera();
+    if (input.was_pressed(Key::escape)) screen_.window->request_close();
+    for (const ViewSwitch& s : kViewSwitches) {
+      if (input.was_pressed(s.key)) view_.*s.field = !(view_.*s.field);
+    }
+  }
+
+  void apply(const OverlayActions& actions) {
+    if (actions.toggle_pause) toggle_pause();
+    if (actions.single_step) simulation_.loop().request_single_step();
+    if (actions.time_scale >= 0.0f) simulation_.loop().set_time_scale(actions.time_scale);
+    if (actions.switched >= 0) {
+      const ViewSwitch& s = kViewSwitches[static_cast<std::size_t>(actions.switched)];
+      view_.*s.field = !(view_.*s.field);
+    }
+    if (actions.slider == 0) view_.skin_opacity = actions.slider_value;
+    if (actions.dismiss_messages) feed_.clear_messages();
+    if (actions.hide_overlay) show_overlay_ = false;
+    if (actions.item_highlighted >= 0) flip(actions.item_highlighted, &OverlayFeed::ItemState::highlighted);
+    if (actions.item_visibility >= 0) flip(actions.item_visibility, &OverlayFeed::ItemState::visible);
+  }
+
+  void flip(int item, bool OverlayFeed::ItemState::* field) {
+    auto& states = feed_.item_states();
+    const std::size_t index = static_cast<std::size_t>(item);
+    if (index >= states.size()) return;
+    states[index].*field = !(states[index].*field);
+    scene_view_.set_muscle_flags(simulation_.characters()[shown_character_].scene_index,
+                                 static_cast<std::uint32_t>(item),
+                                 (states[index].visible ? 0u : kItemHidden) |
+                                     (states[index].highlighted ? kItemHighlighted : 0u));
+  }
+
+  void toggle_pause() { simulation_.loop().set_paused(!simulation_.loop().paused()); }
+
+  const GameOptions& options_;
+  Screen& screen_;
+  muscle::ContentReloader reloader_;
+  Simulation simulation_;
+  SceneView scene_view_;
+  OverlayFeed feed_;
+  RunRecorder recorder_;
+  DrawView view_;
+  bool show_overlay_ = true;
+  std::size_t shown_character_ = 0;
+};
+
+}  // namespace
+
+int run_window(const GameOptions& options, const std::filesystem::path& scene_file,
+               std::shared_ptr<const muscle::SceneAsset> scene) {
+  auto screen = open_window("Fascicle: " + scene->name, options.width, options.height);
+  if (!screen) {
+    std::fputs(to_text(screen.diagnostics()).c_str(), stderr);
+    std::fprintf(stderr, "No window can be opened; --headless runs without one.\n");
+    return kExitNoOutput;
+  }
+  WindowRun run(options, scene_file, std::move(scene), **screen);
+  return run.run();
+}
+
+}  // namespace fascicle::game

@@ -1,0 +1,140 @@
+#include "game/scene_view.hpp"
+
+#include "engine/parallel/for_range.hpp"
+#include "modules/muscle/asset/muscle_asset.hpp"
+
+namespace fascicle::game {
+namespace {
+
+constexpr std::size_t kCharactersPerChunk = 8;
+
+}  // namespace
+
+void upload_bones(ecs::View<const BoneMatrices, DrawnBones> characters,
+                  ecs::Resource<const muscle::DrawTarget> target) {
+  Renderer& renderer = *target->renderer;
+  parallel::for_range(characters.candidates(), kCharactersPerChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      characters.visit(i, [&](const BoneMatrices& bones, DrawnBones& drawn) {
+        const std::span<glm::mat4> matrices = renderer.rigid_matrices(drawn.group);
+        for (std::size_t m = 0; m < matrices.size(); ++m) {
+          matrices[m] = bones.world[static_cast<std::size_t>(drawn.bones[m])] * drawn.transforms[m];
+        }
+        if (bones.teleport_count != drawn.teleport_count) {
+          drawn.teleport_count = bones.teleport_count;
+          renderer.mark_teleported(drawn.group);
+        }
+      });
+    }
+  });
+}
+
+void upload_skins(ecs::View<const SkinnedSurface, DrawnSkin> skins, ecs::View<const BoneMatrices> characters,
+                  ecs::Resource<const muscle::DrawTarget> target) {
+  Renderer& renderer = *target->renderer;
+  parallel::for_range(skins.candidates(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      skins.visit(i, [&](const SkinnedSurface& surface, DrawnSkin& drawn) {
+        pack_vertices(surface.positions, surface.normals, renderer.skin_vertices(drawn.skin));
+        const BoneMatrices* bones = characters.try_get<const BoneMatrices>(drawn.character);
+        if (bones != nullptr && bones->teleport_count != drawn.teleport_count) {
+          drawn.teleport_count = bones->teleport_count;
+          renderer.mark_teleported(drawn.skin);
+        }
+      });
+    }
+  });
+}
+
+SceneView::SceneView(Simulation& simulation, Renderer& renderer) : simulation_(simulation), renderer_(renderer) {
+  simulation_.world().set_resource(muscle::DrawTarget{&renderer});
+  simulation_.schedule().add("upload_bones", upload_bones);
+  simulation_.schedule().add("upload_skins", upload_skins);
+  simulation_.schedule().add("upload_muscles", muscle::upload_muscles);
+  attach();
+}
+
+void SceneView::attach() {
+  for (const SpawnedCharacter& character : simulation_.characters()) attach_character(character);
+}
+
+void SceneView::attach_character(const SpawnedCharacter& character) {
+  ecs::World& world = simulation_.world();
+
+  DrawnBones bones;
+  std::vector<MeshHandle> handles;
+  for (const muscle::BoneMesh& mesh : character.asset->bone_meshes) {
+    const auto [found, is_new] = meshes_.try_emplace(mesh.mesh.get());
+    if (is_new) {
+      found->second = renderer_.add_mesh(*mesh.mesh);
+      mesh_order_.push_back(found->second);
+    }
+    handles.push_back(found->second);
+    bones.bones.push_back(mesh.bone);
+    bones.transforms.push_back(mesh.transform);
+  }
+  if (!handles.empty()) {
+    bones.group = renderer_.add_rigid(handles);
+    world.add(character.entity, std::move(bones));
+  }
+
+  for (const ecs::Entity skin : character.skins) {
+    const SkinAsset& asset = *world.get<SkinInstance>(skin).asset;
+    world.add(skin, DrawnSkin{renderer_.add_skin(static_cast<std::uint32_t>(asset.size()), asset.indices),
+                              character.entity, 0});
+  }
+
+  if (character.musculature == ecs::kNoEntity) return;
+  const muscle::MuscleAsset& asset = *character.asset->muscles;
+  const auto [shared, is_new] = muscles_.try_emplace(&asset);
+  if (is_new) {
+    shared->second.topology = renderer_.add_strip_topology(muscle::make_strip_topology(asset));
+    shared->second.line_indices = muscle::make_action_line_indices(asset);
+    topologies_.push_back(shared->second.topology);
+  }
+  world.add(character.musculature,
+            muscle::DrawnMuscles{renderer_.add_strips(shared->second.topology),
+                                 renderer_.add_lines(muscle::action_line_vertex_count(asset), shared->second.line_indices),
+                                 0});
+}
+
+void SceneView::release() {
+  ecs::World& world = simulation_.world();
+  for (const SpawnedCharacter& character : simulation_.characters()) {
+    if (const DrawnBones* bones = world.try_get<DrawnBones>(character.entity)) {
+      renderer_.remove(bones->group);
+      world.remove<DrawnBones>(character.entity);
+    }
+    for (const ecs::Entity skin : character.skins) {
+      if (const DrawnSkin* drawn = world.try_get<DrawnSkin>(skin)) renderer_.remove(drawn->skin);
+      world.remove<DrawnSkin>(skin);
+    }
+    if (const muscle::DrawnMuscles* drawn = world.try_get<muscle::DrawnMuscles>(character.musculature)) {
+      renderer_.remove(drawn->strips);
+      renderer_.remove(drawn->lines);
+      world.remove<muscle::DrawnMuscles>(character.musculature);
+    }
+  }
+  for (const StripTopologyHandle topology : topologies_) renderer_.remove(topology);
+  for (const MeshHandle mesh : mesh_order_) renderer_.remove(mesh);
+  topologies_.clear();
+  mesh_order_.clear();
+  muscles_.clear();
+  meshes_.clear();
+}
+
+OrbitCamera SceneView::scene_camera() const {
+  const muscle::SceneCamera& camera = simulation_.scene().camera;
+  return {camera.target, camera.distance, camera.yaw, camera.pitch, camera.field_of_view};
+}
+
+void SceneView::set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags) {
+  for (const SpawnedCharacter& character : simulation_.characters()) {
+    if (character.scene_index != scene_index || character.musculature == ecs::kNoEntity) continue;
+    const muscle::DrawnMuscles& drawn = simulation_.world().get<muscle::DrawnMuscles>(character.musculature);
+    const std::span<StripItem> items = renderer_.strip_items(drawn.strips);
+    if (muscle < items.size()) items[muscle].flags = flags;
+  }
+}
+
+}  // namespace fascicle::game

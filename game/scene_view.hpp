@@ -1,0 +1,76 @@
+// What the player sees of a Simulation: it registers upload systems in the simulation's schedule, gives each character
+// its things in the renderer (shared per asset), and keeps both in step when characters come and go.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/animation/skeleton.hpp"
+#include "engine/animation/skinning.hpp"
+#include "engine/ecs/resource.hpp"
+#include "engine/ecs/view.hpp"
+#include "engine/render/renderer.hpp"
+#include "game/simulation.hpp"
+#include "modules/muscle/systems/5_present/draw_muscles.hpp"
+
+namespace fascicle::game {
+
+// On a character's entity: its bone meshes.
+struct DrawnBones {
+  RigidHandle group;
+  std::vector<std::int32_t> bones;       // one a mesh
+  std::vector<glm::mat4> transforms;     // mesh to its bone's frame
+  std::uint32_t teleport_count = 0;
+};
+
+// On a skin's entity.
+struct DrawnSkin {
+  SkinHandle skin;
+  ecs::Entity character;
+  std::uint32_t teleport_count = 0;
+};
+
+void upload_bones(ecs::View<const BoneMatrices, DrawnBones> characters,
+                  ecs::Resource<const muscle::DrawTarget> target);
+void upload_skins(ecs::View<const SkinnedSurface, DrawnSkin> skins, ecs::View<const BoneMatrices> characters,
+                  ecs::Resource<const muscle::DrawTarget> target);
+
+class SceneView {
+ public:
+  // Adds the upload systems to the simulation's schedule and gives all its characters their pictures.
+  SceneView(Simulation& simulation, Renderer& renderer);
+  SceneView(const SceneView&) = delete;
+  SceneView& operator=(const SceneView&) = delete;
+
+  // Before each of the simulation's steps, on the GL thread.
+  void begin_step() { renderer_.begin_step(); }
+
+  // Around Simulation::swap_scene: everything drawn goes, then comes back for the new characters.
+  void release();
+  void attach();
+
+  // Where the scene's camera looks from.
+  OrbitCamera scene_camera() const;
+
+  // Of one muscle, on all characters of its asset: hidden or highlighted.
+  void set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags);
+
+ private:
+  struct SharedMuscles {
+    StripTopologyHandle topology;
+    std::vector<std::uint32_t> line_indices;
+  };
+
+  void attach_character(const SpawnedCharacter& character);
+
+  Simulation& simulation_;
+  Renderer& renderer_;
+  // Keyed by address for lookup only; handles are released in the order in which they were made.
+  std::map<const muscle::MuscleAsset*, SharedMuscles> muscles_;
+  std::map<const TriangleMesh*, MeshHandle> meshes_;
+  std::vector<StripTopologyHandle> topologies_;
+  std::vector<MeshHandle> mesh_order_;
+};
+
+}  // namespace fascicle::game

@@ -1,0 +1,196 @@
+#include "game/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "engine/animation/joint_systems.hpp"
+#include "engine/animation/pose_systems.hpp"
+#include "engine/animation/skinning_systems.hpp"
+#include "engine/loop/cost_ledger.hpp"
+#include "modules/muscle/muscle.hpp"
+
+namespace fascicle::game {
+namespace {
+
+constexpr int kMaxCatchUpSteps = 4;
+constexpr float kCopySpacing = 1.4f;             // m between copies on the grid
+constexpr float kPhaseOfCopy = 0.61803398875f;   // each copy is this fraction of a cycle ahead of the one before
+
+// FNV-1a over 64-bit words; bytes beyond the last word are not expected (all states are multiples of 8 bytes).
+class StateHash {
+ public:
+  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ull; }
+  void add(std::span<const glm::mat4> matrices) {
+    for (const glm::mat4& matrix : matrices) {
+      std::uint64_t words[sizeof(glm::mat4) / sizeof(std::uint64_t)];
+      std::memcpy(words, &matrix, sizeof words);
+      for (const std::uint64_t word : words) add(word);
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ull;
+};
+
+// Copies stand on a square grid, row after row away from the camera; copy 0 stands where the scene says.
+glm::vec3 grid_offset(int copy, int copies) {
+  if (copies <= 1) return glm::vec3(0.0f);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(copies))));
+  return {kCopySpacing * static_cast<float>(copy % columns), 0.0f, -kCopySpacing * static_cast<float>(copy / columns)};
+}
+
+float fraction(float x) { return x - std::floor(x); }
+
+}  // namespace
+
+Simulation::Simulation(std::shared_ptr<const muscle::SceneAsset> scene, const SimulationOptions& options)
+    : scene_(std::move(scene)), options_(options), workers_(options.workers),
+      loop_(1.0f / scene_->step_hz, kMaxCatchUpSteps) {
+  world_.set_resource(loop_.time());
+  world_.set_resource(CostLedger{});
+  muscle::prepare_muscles(world_, {.simd = options_.simd});
+
+  schedule_.add("advance_clips", advance_clips);
+  schedule_.add("sample_clips", sample_clips);
+  schedule_.add("advance_motions", advance_motions);
+  schedule_.add("sample_motions", sample_motions);
+  schedule_.add("pose_joint_models", pose_joint_models);
+  schedule_.add("compose_bones", compose_bones);
+  if (options_.skin_meshes) schedule_.add("skin_meshes", fascicle::skin_meshes);
+  muscle::add_muscle_systems(schedule_);
+
+  spawn_all();
+}
+
+void Simulation::step() {
+  world_.resource<FrameTime>() = loop_.advance();
+  schedule_.run(world_, workers_);
+  ++steps_;
+  if (steps_ == 1) start_ = root_position();
+}
+
+// Bone 0 of a joint model is the fixed ground; the bone after it carries the character.
+glm::vec3 Simulation::root_position() const {
+  if (characters_.empty()) return glm::vec3(0.0f);
+  const SpawnedCharacter& first = characters_.front();
+  const std::vector<glm::mat4>& world = world_.get<BoneMatrices>(first.entity).world;
+  return glm::vec3(world[first.asset->joints && world.size() > 1 ? 1 : 0][3]);
+}
+
+glm::vec3 Simulation::travel() const {
+  const glm::vec3 moved = root_position() - start_;
+  return steps_ == 0 ? glm::vec3(0.0f) : glm::vec3(moved.x, 0.0f, moved.z);
+}
+
+void Simulation::spawn_all() {
+  for (int copy = 0; copy < options_.copies; ++copy) {
+    for (std::size_t i = 0; i < scene_->characters.size(); ++i) characters_.push_back(spawn(i, copy));
+  }
+}
+
+void Simulation::despawn_all() {
+  for (const SpawnedCharacter& character : characters_) {
+    muscle::despawn_musculature(world_, character.musculature);
+    for (const ecs::Entity skin : character.skins) world_.destroy(skin);
+    world_.destroy(character.entity);
+  }
+  characters_.clear();
+}
+
+SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
+  const muscle::SceneCharacter& placed = scene_->characters[scene_index];
+  const muscle::CharacterAsset& asset = *placed.character;
+  SpawnedCharacter spawned{.asset = placed.character, .scene_index = scene_index, .entity = world_.create(),
+                           .musculature = ecs::kNoEntity, .skins = {}};
+
+  world_.add(spawned.entity, Placement{.position = placed.position + grid_offset(copy, options_.copies),
+                                       .rotation = glm::angleAxis(placed.heading, glm::vec3(0.0f, 1.0f, 0.0f))});
+  world_.add(spawned.entity, LocalPose{asset.skeleton, asset.skeleton->rest_local});
+  world_.add(spawned.entity, BoneMatrices{asset.skeleton->rest_world, 0});
+
+  const float phase = fraction(placed.animation.phase + kPhaseOfCopy * static_cast<float>(copy));
+  if (placed.animation.clip) {
+    world_.add(spawned.entity, ClipPlayer{.clip = placed.animation.clip,
+                                          .time = phase * placed.animation.clip->duration,
+                                          .speed = placed.animation.speed});
+  }
+  if (asset.joints) {
+    world_.add(spawned.entity, make_coordinate_pose(asset.joints));
+    if (placed.animation.motion) {
+      world_.add(spawned.entity, MotionPlayer{.motion = placed.animation.motion,
+                                              .time = static_cast<double>(phase) * placed.animation.motion->cycle.length(),
+                                              .speed = static_cast<double>(placed.animation.speed),
+                                              .in_place = placed.in_place});
+    }
+  }
+  if (asset.muscles) spawned.musculature = muscle::spawn_musculature(world_, spawned.entity, asset.muscles);
+  for (const std::shared_ptr<const SkinAsset>& skin : asset.skins) {
+    const ecs::Entity entity = world_.create();
+    world_.add(entity, SkinInstance{skin, spawned.entity});
+    world_.add(entity, make_skinned_surface(*skin));
+    spawned.skins.push_back(entity);
+  }
+  return spawned;
+}
+
+void Simulation::swap_scene(std::shared_ptr<const muscle::SceneAsset> scene) {
+  struct PlayerState {
+    std::size_t scene_index;
+    float clip_time;
+    double motion_time;
+  };
+  std::vector<PlayerState> states;
+  for (const SpawnedCharacter& character : characters_) {
+    const ClipPlayer* clip = world_.try_get<ClipPlayer>(character.entity);
+    const MotionPlayer* motion = world_.try_get<MotionPlayer>(character.entity);
+    states.push_back({character.scene_index, clip ? clip->time : 0.0f, motion ? motion->time : 0.0});
+  }
+  despawn_all();
+  const std::size_t before = scene_->characters.size();
+  scene_ = std::move(scene);
+  spawn_all();
+  // Copies are spawned scene by scene, so places match only while the number of characters is the same.
+  if (before != scene_->characters.size()) return;
+  for (std::size_t i = 0; i < characters_.size(); ++i) {
+    if (ClipPlayer* clip = world_.try_get<ClipPlayer>(characters_[i].entity)) clip->time = states[i].clip_time;
+    if (MotionPlayer* motion = world_.try_get<MotionPlayer>(characters_[i].entity)) motion->time = states[i].motion_time;
+  }
+}
+
+std::uint64_t Simulation::hash() const {
+  StateHash hash;
+  hash.add(steps_);
+  for (const SpawnedCharacter& character : characters_) {
+    hash.add(world_.get<BoneMatrices>(character.entity).world);
+  }
+  hash.add(muscle::hash_state(world_));
+  return hash.value();
+}
+
+void Simulation::record_metrics(Report& report) const {
+  double length = 0.0, volume = 0.0, worst_stretch = 0.0;
+  std::uint64_t held = 0;
+  std::size_t muscles = 0;
+  for (const SpawnedCharacter& character : characters_) {
+    if (character.musculature == ecs::kNoEntity) continue;
+    const muscle::MuscleMeasures& measures = world_.get<muscle::MuscleMeasures>(character.musculature);
+    const muscle::MuscleAsset& asset = *world_.get<muscle::Musculature>(character.musculature).asset;
+    for (std::size_t m = 0; m < asset.size(); ++m) {
+      length += static_cast<double>(measures.length[m]);
+      volume += static_cast<double>(measures.volume[m]);
+      worst_stretch = std::max(worst_stretch, static_cast<double>(measures.length[m] / asset.muscles[m].rest_length));
+    }
+    muscles += asset.size();
+    held += world_.get<muscle::ActionLines>(character.musculature).held_steps;
+  }
+  if (muscles == 0) return;
+  report.record("muscle.length_mean_m", length / static_cast<double>(muscles));
+  report.record("muscle.length_ratio_max", worst_stretch);
+  report.record("muscle.volume_total_m3", volume);
+  report.record("muscle.held_steps", static_cast<double>(held));
+}
+
+}  // namespace fascicle::game

@@ -1,0 +1,68 @@
+#include "game/game_options.hpp"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fascicle::game {
+namespace {
+
+ParsedOptions parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "fascicle");
+  return parse_options(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(GameOptions, WrongArgumentsLeaveWithTheUsageStatus) {
+  const std::vector<std::vector<const char*>> wrong = {
+      {"--no-such-option"},
+      {"--frames", "0"},
+      {"--frames", "-3"},
+      {"--frames", "many"},
+      {"--threads", "0"},
+      {"--characters", "0"},
+      {"--simd", "neon"},
+      {"--scene"},
+      {"--headless", "--no-draw", "--screenshot", "p.png"},
+      {"--headless", "--no-draw", "--contact-sheet", "p.png"},
+      {"--no-draw"},
+      {"--headless", "--frames", "10", "--screenshot", "p.png@11"},
+      {"--width", "1"},
+  };
+  for (const auto& arguments : wrong) {
+    const ParsedOptions parsed = parse(arguments);
+    ASSERT_TRUE(parsed.exit_status.has_value()) << arguments[0];
+    EXPECT_EQ(*parsed.exit_status, kExitUsage) << arguments[0];
+  }
+}
+
+TEST(GameOptions, HelpLeavesWithSuccess) { EXPECT_EQ(parse({"--help"}).exit_status, kExitOk); }
+
+TEST(GameOptions, DefaultIsTheWalkerInAWindow) {
+  const ParsedOptions parsed = parse({});
+  ASSERT_FALSE(parsed.exit_status.has_value());
+  EXPECT_EQ(parsed.options.scene, "walker");
+  EXPECT_FALSE(parsed.options.headless);
+  EXPECT_TRUE(parsed.options.draw);
+  EXPECT_EQ(parsed.options.copies, 1);
+  EXPECT_FALSE(parsed.options.frames.has_value());
+}
+
+TEST(GameOptions, ScreenshotMayNameAFrame) {
+  const auto last = parse({"--headless", "--screenshot", "p.png"}).options.screenshot;
+  ASSERT_TRUE(last.has_value());
+  EXPECT_EQ(last->file, "p.png");
+  EXPECT_FALSE(last->frame.has_value());
+
+  const auto tenth = parse({"--headless", "--screenshot", "p.png@10"}).options.screenshot;
+  ASSERT_TRUE(tenth.has_value());
+  EXPECT_EQ(tenth->file, "p.png");
+  EXPECT_EQ(tenth->frame, 10u);
+
+  const auto mail = parse({"--headless", "--screenshot", "me@home.png"}).options.screenshot;
+  ASSERT_TRUE(mail.has_value());
+  EXPECT_EQ(mail->file, "me@home.png");
+  EXPECT_FALSE(mail->frame.has_value());
+}
+
+}  // namespace
+}  // namespace fascicle::game

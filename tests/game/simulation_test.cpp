@@ -1,0 +1,137 @@
+#include "game/simulation.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "engine/animation/skeleton.hpp"
+#include "modules/muscle/muscle.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/test_data.hpp"
+
+namespace fascicle::game {
+namespace {
+
+std::filesystem::path scene_file(const char* name) {
+  return std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "scenes" / (std::string(name) + ".scene.json");
+}
+
+std::shared_ptr<const muscle::SceneAsset> load(const char* name) {
+  auto scene = muscle::load_scene(scene_file(name), {.data_folder = test::data_folder()});
+  EXPECT_TRUE(scene.ok()) << to_text(scene.diagnostics());
+  return scene.ok() ? *scene : nullptr;
+}
+
+std::uint64_t hash_after(const std::shared_ptr<const muscle::SceneAsset>& scene, int steps, SimulationOptions options) {
+  Simulation simulation(scene, options);
+  for (int i = 0; i < steps; ++i) simulation.step();
+  return simulation.hash();
+}
+
+// Every number that leaves the simulation is finite, and no muscle was held back.
+void expect_healthy(const Simulation& simulation) {
+  for (const SpawnedCharacter& character : simulation.characters()) {
+    if (character.musculature == ecs::kNoEntity) continue;
+    const auto& surfaces = simulation.world().get<muscle::MuscleSurfaces>(character.musculature);
+    for (const muscle::SurfaceVertex& vertex : surfaces.vertices) {
+      ASSERT_TRUE(std::isfinite(vertex.position.x + vertex.position.y + vertex.position.z));
+    }
+    EXPECT_EQ(simulation.world().get<muscle::ActionLines>(character.musculature).held_steps, 0u);
+  }
+}
+
+TEST(Simulation, WalkerHashIsTheSameForAnyNumberOfThreads) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  const std::uint64_t one = hash_after(scene, 40, {.workers = 1, .copies = 5});
+  for (const int workers : {2, 3, 8}) {
+    EXPECT_EQ(hash_after(scene, 40, {.workers = workers, .copies = 5}), one) << workers << " workers";
+  }
+}
+
+TEST(Simulation, WalkerHashIsTheSameOnAllInstructionSets) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  const std::uint64_t portable = hash_after(scene, 40, {.workers = 1, .simd = SimdLevel::kPortable});
+  for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    if (level > detect_simd()) continue;
+    EXPECT_EQ(hash_after(scene, 40, {.workers = 1, .simd = level}), portable) << to_string(level);
+  }
+}
+
+TEST(Simulation, WalkerMovesEveryFrame) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 1});
+  std::set<std::uint64_t> hashes;
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+    hashes.insert(simulation.hash());
+  }
+  EXPECT_EQ(hashes.size(), 100u);
+  expect_healthy(simulation);
+}
+
+TEST(Simulation, SteadyFramesAllocateNothing) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  for (const int workers : {1, 2}) {
+    Simulation simulation(scene, {.workers = workers, .copies = 3});
+    for (int i = 0; i < 5; ++i) simulation.step();
+    const test::AllocationScope count;
+    for (int i = 0; i < 20; ++i) simulation.step();
+    EXPECT_EQ(count.allocations(), 0u) << workers << " workers";
+  }
+}
+
+TEST(Simulation, SwappingInTheSameSceneChangesNothing) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 1});
+  for (int i = 0; i < 30; ++i) simulation.step();
+  simulation.swap_scene(load("walker"));
+  for (int i = 0; i < 30; ++i) simulation.step();
+  EXPECT_EQ(simulation.hash(), hash_after(scene, 60, {.workers = 1}));
+}
+
+TEST(Simulation, CopiesAreNotInLockstepAndStandApart) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 1, .copies = 4});
+  for (int i = 0; i < 10; ++i) simulation.step();
+  std::set<float> lengths;
+  for (const SpawnedCharacter& character : simulation.characters()) {
+    lengths.insert(simulation.world().get<muscle::MuscleMeasures>(character.musculature).length[0]);
+  }
+  EXPECT_EQ(lengths.size(), 4u);
+}
+
+TEST(Simulation, Gait2392WalksForTwoCycles) {
+  FASCICLE_SKIP_WITHOUT_DATA("opensim/walk.mot");
+  const auto scene = load("gait2392");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 2});
+  ASSERT_EQ(simulation.characters().size(), 1u);
+  EXPECT_EQ(simulation.characters()[0].asset->muscles->size(), 92u);
+  for (int i = 0; i < 160; ++i) {
+    simulation.step();
+    expect_healthy(simulation);
+  }
+  EXPECT_EQ(hash_after(scene, 160, {.workers = 3}), simulation.hash());
+}
+
+TEST(Simulation, CesiumManWalksWithADozenMuscles) {
+  FASCICLE_SKIP_WITHOUT_DATA("gltf/CesiumMan.glb");
+  const auto scene = load("cesium-man");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 2});
+  EXPECT_EQ(simulation.characters()[0].asset->muscles->size(), 12u);
+  for (int i = 0; i < 150; ++i) {
+    simulation.step();
+    expect_healthy(simulation);
+  }
+}
+
+}  // namespace
+}  // namespace fascicle::game
