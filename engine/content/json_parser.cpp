@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kMaxDepth = 64;
 constexpr std::size_t kMaxErrors = 100;
+constexpr std::size_t kMaxValues = std::size_t{1} << 24;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_word(char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$'; }
@@ -132,6 +133,9 @@ class Parser {
   // Parses the value at the current place as the last child of `parent`.
   bool parse_value(std::uint32_t parent) {
     skip_space();
+    if (tree_.values.size() == kMaxValues) {
+      return fail(at_, fmt::format("more than {} values", kMaxValues), "split the file; is it the right one?");
+    }
     const std::uint32_t value = add_value(parent);
     if (parent != kNoJson) {
       std::uint32_t& link =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <type_traits>
 
@@ -17,7 +18,7 @@ using detail::JsonTree;
 using detail::JsonValue;
 using detail::kNoJson;
 
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{32} << 20;
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 constexpr std::size_t kMaxShown = 40;  // bytes of an offending value in a message
 constexpr float kUnitTolerance = 1e-3f;
 
@@ -144,6 +145,12 @@ JsonNode JsonNode::element(std::size_t index) const {
   Iterator at = begin();
   for (; index > 0; --index) ++at;
   return *at;
+}
+
+std::string_view JsonNode::text() const {
+  if (!exists()) return {};
+  const JsonValue& value = value_of(tree_, index_);
+  return std::string_view(tree_->text).substr(value.begin, value.end - value.begin);
 }
 
 int JsonNode::line() const { return where().line; }
@@ -338,6 +345,21 @@ bool JsonNode::read_choice(std::size_t& out, Diagnostics& diagnostics,
 }
 
 JsonNode JsonDocument::root() const { return {tree_.get(), 0}; }
+JsonNode JsonDocument::nearest(std::string_view pointer) const {
+  JsonNode node = root();
+  while (pointer.starts_with('/')) {
+    pointer.remove_prefix(1);
+    const std::string_view step = pointer.substr(0, pointer.find('/'));
+    pointer.remove_prefix(step.size());
+    std::size_t index = 0;
+    const bool number = std::from_chars(step.data(), step.data() + step.size(), index).ec == std::errc();
+    const JsonNode next = node.is_array() ? (number ? node.element(index) : JsonNode()) : node.member(step);
+    if (!next.exists()) break;
+    node = next;
+  }
+  return node;
+}
+
 const std::string& JsonDocument::file() const { return tree_->file; }
 std::string_view JsonDocument::text() const { return tree_->text; }
 

@@ -88,6 +88,7 @@ class JsonNode {
   JsonNode member(std::string_view name) const; // missing when there is none
   JsonNode element(std::size_t index) const;    // missing when out of range; walks the list
 
+  std::string_view text() const;  // as it stands in the file
   int line() const;
   int column() const;
   std::string path() const;  // JSON pointer: "/muscles/3/origin"; empty for the root
@@ -139,6 +140,8 @@ class JsonNode {
 class JsonDocument {
  public:
   JsonNode root() const;
+  // The value at a JSON pointer such as "/muscles/3/name" (without escapes), or where there is none its nearest ancestor.
+  JsonNode nearest(std::string_view pointer) const;
   const std::string& file() const;
   std::string_view text() const;
 
@@ -148,8 +151,8 @@ class JsonDocument {
   std::shared_ptr<const detail::JsonTree> tree_;
 };
 
-// Errors: unreadable or larger than 32 MiB, empty, not UTF-8, not JSON (the first syntax error), nested too deeply, and
-// every duplicate name.
+// Errors: unreadable, larger than 1 GiB or of more than 16 million values, empty, not UTF-8, not JSON (the first syntax
+// error), nested too deeply, and every duplicate name.
 Result<JsonDocument> read_json_file(const std::filesystem::path& file);
 Result<JsonDocument> parse_json(std::string text, std::string file_name);
 

@@ -66,8 +66,8 @@ Result<TriangleMesh> extract_mesh(const GltfFile& file, const std::string& name)
   if (found == nullptr) {
     std::vector<std::string> names;
     for (const GltfMesh& each : file.meshes) names.push_back(each.name);
-    return Diagnostic{file.file, 0, 0, "/meshes", fmt::format("no mesh named '{}'", name),
-                      suggest_name(name, names, "meshes")};
+    return Diagnostic{
+        file.file, 0, 0, "/meshes", fmt::format("no mesh named '{}'", name), suggest_name(name, names, "meshes")};
   }
   mesh.name = name;
   append_mesh(file, *found, mesh);
