@@ -26,57 +26,24 @@
 
 #include "engine/math/aligned_vector.hpp"
 #include "modules/muscle/asset/muscle_description.hpp"
+#include "modules/muscle/kernels/kernel_data.hpp"
 
 namespace fascicle::muscle {
 
-inline constexpr std::uint32_t kLanes = 16;
 inline constexpr std::uint32_t kRestartIndex = 0xffffffffu;
 inline constexpr float kMuscleDensity = 1059.7f;          // kg/m^3
 inline constexpr float kDefaultSpecificTension = 61.0e4f;  // N/m^2
 
-// A point of an action line: (1-s) T_i p_i + s T_j p_j, where p_i = a_i + R_i^-1 mu carries the fit's displacement
-// (1.1). Kept ready to multiply: (1-s) p_i and (1-s), s p_j and s.
-struct alignas(16) PointBinding {
-  std::array<float, 4> first{};   // (1-s) p_i, (1-s)
-  std::array<float, 4> second{};  // s p_j, s; all zero where one bone carries the point alone
-  std::uint32_t first_bone = 0;
-  std::uint32_t second_bone = 0;
-  std::uint32_t slot = 0;
-  std::uint32_t muscle = 0;
-};
-
-// A direction pair fixed in a bone, by which a muscle's end keeps its roll (1.2).
-struct EndFrame {
-  std::uint32_t bone = 0;
-  glm::vec3 tangent{0.0f};    // bone's frame, unit at rest
-  glm::vec3 reference{0.0f};  // bone's frame, unit at rest, square to the tangent
-};
-
 enum class MuscleEnd { kOrigin = 0, kInsertion = 1 };
 
-// Drawn tendon at one end (1.4).
-struct TendonEnd {
-  bool drawn = false;    // has a section C_t of its own
-  float length = 0.0f;   // m, of free tendon; fixed (a rigid tendon)
-};
-
-// Where one muscle's data lies, and its constants.
-struct MuscleLayout {
+// One muscle: where its data lies (SectionLayout), and its constants.
+struct MuscleLayout : SectionLayout {
   std::string name;
-  std::uint32_t section_vertices = 0;  // |C|
-  std::uint32_t section_count = 0;     // t_LON
   std::uint32_t subdivision = 0;       // LSS
   std::uint32_t attachment_count = 0;  // |V| + 2; attachment i is section i << LSS
-
-  std::uint32_t first_slot = 0;        // slot of section 0; section k: first_slot + kLanes * k
-  std::uint32_t lane_index = 0;        // block * kLanes + lane
-  std::uint32_t first_radius = 0;      // of section 0; section k: first_radius + radius_stride * k
-  std::uint32_t radius_stride = 0;     // |C| rounded up to 8
-  std::uint32_t first_row = 0;         // drawn rows: sections and tendon sections
-  std::uint32_t row_count = 0;
-  std::uint32_t first_vertex = 0;
-  std::uint32_t vertex_count = 0;      // row_count |C| + 2
-  std::uint32_t first_attachment = 0;  // into attachment_points
+  // Slot of attachment 0 and the step to the next: the functional length reads these. Attachments that a fit has
+  // displaced have slots of their own, behind all sections'.
+  std::uint32_t first_attachment_slot = 0, attachment_slot_step = 0;
   std::uint32_t first_strip_index = 0, strip_index_count = 0;
   std::uint32_t first_fan_index = 0, fan_index_count = 0;
 
@@ -87,24 +54,15 @@ struct MuscleLayout {
   float source_rest_length = 0.0f;   // m, l_R
   float scaled_rest_length = 0.0f;   // m, l_RS
   float scaled_tendon_slack_length = 0.0f;  // m, l_TSs
-  std::array<TendonEnd, 2> tendons;  // by MuscleEnd
+  std::array<float, 2> tendon_lengths{};    // m, by MuscleEnd: free tendon drawn; fixed (a rigid tendon)
   float rest_volume = 0.0f;          // m^3, of the belly
-  std::array<EndFrame, 2> ends;      // by MuscleEnd
 
   // What table 3 counts: extra via points left out, tendon sections left out.
   std::uint32_t counted_sections = 0;
   std::uint32_t counted_vertices = 0;  // counted_sections |C| + 2
 };
 
-// A block of 16 lanes.
-struct LaneBlock {
-  std::uint32_t first_slot = 0;
-  std::uint32_t height = 0;                           // sections of its longest muscle
-  alignas(64) std::array<std::int32_t, kLanes> counts{};  // sections per lane; 0: an empty lane
-  std::array<std::int32_t, kLanes> muscles{};         // -1: an empty lane
-};
-
-// cos and sin of theta_i = 2 pi i / |C|, padded by going round again.
+// The table that a Circle points into.
 struct CircleTable {
   std::uint32_t section_vertices = 0;
   AlignedVector<float> cosines, sines;
@@ -115,9 +73,12 @@ struct MuscleAsset {
   std::uint32_t bone_count = 0;       // matrices that the character must have
 
   std::uint32_t slot_count = 0, radius_count = 0, row_count = 0, vertex_count = 0, lane_count = 0;
+  std::vector<SectionLayout> layouts;             // by muscle: the part that kernels walk over, by itself
   std::vector<LaneBlock> blocks;
-  std::vector<CircleTable> circles;               // one per distinct |C|
-  std::vector<std::uint32_t> circle_of_muscle;    // index into circles
+  std::vector<CircleTable> circle_tables;         // one per distinct |C|
+  std::vector<Circle> circles;                    // pointers into them, by SectionLayout::circle
+  std::vector<EndFrame> ends;                     // by lane: the origin's, the insertion's
+  std::array<AlignedVector<float>, 2> tendon_lengths;  // by MuscleEnd and lane, m
 
   // Bindings by one bone first, then those between two. Padding slots have none.
   std::vector<PointBinding> points;
@@ -132,6 +93,10 @@ struct MuscleAsset {
   std::vector<std::uint32_t> fan_indices;    // |C| + 2 a cap
   std::vector<std::uint32_t> vertex_rows;    // a vertex's row; cap centres have their end's row
   std::vector<std::uint32_t> row_muscles;    // a row's muscle
+
+  MuscleAsset() = default;
+  MuscleAsset(const MuscleAsset&) = delete;  // circles point into it
+  MuscleAsset& operator=(const MuscleAsset&) = delete;
 
   std::size_t size() const { return muscles.size(); }
   std::uint32_t slot(std::uint32_t muscle, std::uint32_t section) const {
@@ -151,7 +116,7 @@ struct MuscleCounts {
 };
 MuscleCounts count_muscles(const MuscleAsset& asset);
 
-// The rest place of a section's centre a_k (m), and of its vertices.
+// The rest place of a section's centre a_k (m).
 glm::vec3 rest_point(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section);
 
 // The muscle's 3 |C| (t_LON - 1) tetrahedra (1.6), matching across shared faces and with the drawn surface's

@@ -5,16 +5,25 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/math/aligned_vector.hpp"
 
 namespace fascicle::muscle {
 
+struct MuscleAsset;
+
 struct ActionLines {
   AlignedVector<float> x, y, z;  // m, world; by slot (MuscleAsset::slot)
-  // By muscle: 1 where one of its bones was not finite, so that it keeps the last finite line.
-  std::vector<std::uint8_t> held;
+  // Muscles that keep their last finite line because a bone of theirs is missing or not finite.
+  std::vector<std::uint8_t> held;        // by muscle: 1
+  AlignedVector<std::int32_t> held_lanes;  // by lane: -1
+  bool any_held = false;
   std::uint64_t held_steps = 0;  // muscle steps held since the spawn
 };
+
+// The place of a section's centre a_k (m).
+glm::vec3 line_point(const MuscleAsset& asset, const ActionLines& lines, std::uint32_t muscle, std::uint32_t section);
 
 std::size_t heap_bytes(const ActionLines& lines);
 

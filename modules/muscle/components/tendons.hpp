@@ -1,23 +1,23 @@
 // State: where the tendons end on the current action lines (1.4). On a musculature's entity.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "engine/math/aligned_vector.hpp"
+#include "modules/muscle/asset/muscle_asset.hpp"
 
 namespace fascicle::muscle {
 
-// A place on an action line: in segment (section, section + 1), at this fraction of it.
-struct LinePlace {
-  std::uint32_t segment = 0;
-  float fraction = 0.0f;
-  float arc = 0.0f;  // m from the origin
+struct Tendons {
+  // By MuscleEnd, then lane. Without a tendon the border is the line's first or last point.
+  std::array<AlignedVector<std::int32_t>, 2> segment;
+  std::array<AlignedVector<float>, 2> fraction;
+  std::array<AlignedVector<float>, 2> arc;  // m from the origin
 };
 
-struct Tendons {
-  // Two a muscle: origin's border, insertion's border. Without a tendon: the line's first and last point.
-  std::vector<LinePlace> borders;
-};
+LinePlace tendon_border(const MuscleAsset& asset, const Tendons& tendons, std::uint32_t muscle, MuscleEnd end);
 
 std::size_t heap_bytes(const Tendons& tendons);
 

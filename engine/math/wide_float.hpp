@@ -1,0 +1,382 @@
+// The one SIMD type: WideFloat<N>, N = 4, 8 or 16 floats side by side, with WideInt<N> for masks and bit patterns.
+//
+// A source file that includes this is compiled for one instruction set (see kernels_*.cpp and their flags in
+// CMakeLists.txt), and everything here lives in a namespace named after it, so that no function compiled for AVX can be
+// linked into code that must run without. For the same reason such a file calls no inline function of another library
+// (std, glm). N is logical: on a narrower machine a WideFloat is two halves, recursively, so that a kernel reads the
+// same on all of them.
+//
+// All instruction sets give the same bits. Hence only operations that IEEE 754 defines exactly: + - * / sqrt and
+// comparisons; no fused multiply-add (-ffp-contract=off), no reciprocal estimates; and no sum across lanes, whose order
+// would depend on the width: store and add in order (see sum_in_order).
+#pragma once
+
+#include <immintrin.h>
+
+#if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__) && defined(__AVX512BW__)
+#define FASCICLE_ISA avx512
+#elif defined(__AVX2__)
+#define FASCICLE_ISA avx2
+#else
+#define FASCICLE_ISA portable
+#endif
+#define FASCICLE_INLINE [[gnu::always_inline]] inline
+
+namespace fascicle::FASCICLE_ISA {
+
+#if defined(__AVX512F__)
+inline constexpr int kNativeLanes = 16;
+#elif defined(__AVX2__)
+inline constexpr int kNativeLanes = 8;
+#else
+inline constexpr int kNativeLanes = 4;
+#endif
+
+// The compiler's vectors of N elements: they have the arithmetic and comparison operators.
+template <int N>
+struct Register {
+  typedef float Float __attribute__((vector_size(N * 4)));
+  typedef int Int __attribute__((vector_size(N * 4)));
+};
+
+template <int N, bool kNative = (N <= kNativeLanes)>
+struct WideFloat {
+  typename Register<N>::Float v;
+};
+template <int N>
+struct WideFloat<N, false> {
+  WideFloat<N / 2> lo, hi;
+};
+
+// A mask's lanes are all ones (true) or all zeros.
+template <int N, bool kNative = (N <= kNativeLanes)>
+struct WideInt {
+  typename Register<N>::Int v;
+};
+template <int N>
+struct WideInt<N, false> {
+  WideInt<N / 2> lo, hi;
+};
+
+template <int N>
+inline constexpr bool kIsNative = N <= kNativeLanes;
+
+// --- Making, loading, storing. `load` and `store` take any address that is aligned for a float.
+
+template <int N>
+FASCICLE_INLINE WideFloat<N> broadcast(float value) {
+  if constexpr (!kIsNative<N>) {
+    return {broadcast<N / 2>(value), broadcast<N / 2>(value)};
+  } else {
+    return {typename Register<N>::Float{} + value};
+  }
+}
+
+template <int N>
+FASCICLE_INLINE WideInt<N> broadcast_int(int value) {
+  if constexpr (!kIsNative<N>) {
+    return {broadcast_int<N / 2>(value), broadcast_int<N / 2>(value)};
+  } else {
+    return {typename Register<N>::Int{} + value};
+  }
+}
+
+template <int N>
+FASCICLE_INLINE WideFloat<N> load(const float* from) {
+  if constexpr (!kIsNative<N>) {
+    return {load<N / 2>(from), load<N / 2>(from + N / 2)};
+  } else {
+    WideFloat<N> result;
+    __builtin_memcpy(&result.v, from, sizeof(result.v));
+    return result;
+  }
+}
+
+template <int N>
+FASCICLE_INLINE WideInt<N> load_int(const int* from) {
+  if constexpr (!kIsNative<N>) {
+    return {load_int<N / 2>(from), load_int<N / 2>(from + N / 2)};
+  } else {
+    WideInt<N> result;
+    __builtin_memcpy(&result.v, from, sizeof(result.v));
+    return result;
+  }
+}
+
+template <int N>
+FASCICLE_INLINE void store(WideFloat<N> a, float* to) {
+  if constexpr (!kIsNative<N>) {
+    store(a.lo, to);
+    store(a.hi, to + N / 2);
+  } else {
+    __builtin_memcpy(to, &a.v, sizeof(a.v));
+  }
+}
+
+template <int N>
+FASCICLE_INLINE void store_int(WideInt<N> a, int* to) {
+  if constexpr (!kIsNative<N>) {
+    store_int(a.lo, to);
+    store_int(a.hi, to + N / 2);
+  } else {
+    __builtin_memcpy(to, &a.v, sizeof(a.v));
+  }
+}
+
+// --- Arithmetic.
+
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator+(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo + b.lo, a.hi + b.hi};
+  else return {a.v + b.v};
+}
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator-(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo - b.lo, a.hi - b.hi};
+  else return {a.v - b.v};
+}
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator*(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo * b.lo, a.hi * b.hi};
+  else return {a.v * b.v};
+}
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator/(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo / b.lo, a.hi / b.hi};
+  else return {a.v / b.v};
+}
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator*(float a, WideFloat<N> b) { return broadcast<N>(a) * b; }
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator+(WideFloat<N> a, float b) { return a + broadcast<N>(b); }
+template <int N>
+FASCICLE_INLINE WideFloat<N> operator-(WideFloat<N> a, float b) { return a - broadcast<N>(b); }
+
+template <int N>
+FASCICLE_INLINE WideFloat<N> square_root(WideFloat<N> a) {
+  if constexpr (!kIsNative<N>) return {square_root(a.lo), square_root(a.hi)};
+  else if constexpr (N == 4) return {_mm_sqrt_ps(a.v)};
+#if defined(__AVX2__)
+  else if constexpr (N == 8) return {_mm256_sqrt_ps(a.v)};
+#endif
+#if defined(__AVX512F__)
+  else if constexpr (N == 16) return {_mm512_sqrt_ps(a.v)};
+#endif
+}
+
+// --- Comparisons, masks and bits.
+
+template <int N>
+FASCICLE_INLINE WideInt<N> operator<(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo < b.lo, a.hi < b.hi};
+  else return {a.v < b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator<=(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo <= b.lo, a.hi <= b.hi};
+  else return {a.v <= b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator<(WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo < b.lo, a.hi < b.hi};
+  else return {a.v < b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator==(WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo == b.lo, a.hi == b.hi};
+  else return {a.v == b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator&(WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo & b.lo, a.hi & b.hi};
+  else return {a.v & b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator|(WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo | b.lo, a.hi | b.hi};
+  else return {a.v | b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator^(WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo ^ b.lo, a.hi ^ b.hi};
+  else return {a.v ^ b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> operator+(WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {a.lo + b.lo, a.hi + b.hi};
+  else return {a.v + b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> shift_left(WideInt<N> a, int bits) {
+  if constexpr (!kIsNative<N>) return {shift_left(a.lo, bits), shift_left(a.hi, bits)};
+  else return {a.v << bits};
+}
+
+// mask ? a : b, lane by lane.
+template <int N>
+FASCICLE_INLINE WideFloat<N> select(WideInt<N> mask, WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {select(mask.lo, a.lo, b.lo), select(mask.hi, a.hi, b.hi)};
+  else return {mask.v ? a.v : b.v};
+}
+template <int N>
+FASCICLE_INLINE WideInt<N> select(WideInt<N> mask, WideInt<N> a, WideInt<N> b) {
+  if constexpr (!kIsNative<N>) return {select(mask.lo, a.lo, b.lo), select(mask.hi, a.hi, b.hi)};
+  else return {mask.v ? a.v : b.v};
+}
+
+// Whether the mask is true in any lane.
+template <int N>
+FASCICLE_INLINE bool any(WideInt<N> mask) {
+  if constexpr (!kIsNative<N>) return any(mask.lo | mask.hi);
+  else if constexpr (N == 4) return _mm_movemask_ps((__m128)mask.v) != 0;
+#if defined(__AVX2__)
+  else if constexpr (N == 8) return _mm256_movemask_ps((__m256)mask.v) != 0;
+#endif
+#if defined(__AVX512F__)
+  else if constexpr (N == 16) return _mm512_movepi32_mask((__m512i)mask.v) != 0;
+#endif
+}
+
+template <int N>
+FASCICLE_INLINE WideInt<N> bits_of(WideFloat<N> a) {
+  if constexpr (!kIsNative<N>) return {bits_of(a.lo), bits_of(a.hi)};
+  else return {(typename Register<N>::Int)a.v};
+}
+template <int N>
+FASCICLE_INLINE WideFloat<N> from_bits(WideInt<N> a) {
+  if constexpr (!kIsNative<N>) return {from_bits(a.lo), from_bits(a.hi)};
+  else return {(typename Register<N>::Float)a.v};
+}
+
+template <int N>
+FASCICLE_INLINE WideFloat<N> absolute(WideFloat<N> a) {
+  return from_bits(bits_of(a) & broadcast_int<N>(0x7fffffff));
+}
+// Like std::min and std::max: the first where the comparison fails.
+template <int N>
+FASCICLE_INLINE WideFloat<N> minimum(WideFloat<N> a, WideFloat<N> b) { return select(b < a, b, a); }
+template <int N>
+FASCICLE_INLINE WideFloat<N> maximum(WideFloat<N> a, WideFloat<N> b) { return select(a < b, b, a); }
+
+// To the nearest integer, ties to even.
+template <int N>
+FASCICLE_INLINE WideInt<N> round_to_int(WideFloat<N> a) {
+  if constexpr (!kIsNative<N>) return {round_to_int(a.lo), round_to_int(a.hi)};
+  else if constexpr (N == 4) return {(typename Register<N>::Int)_mm_cvtps_epi32(a.v)};
+#if defined(__AVX2__)
+  else if constexpr (N == 8) return {(typename Register<N>::Int)_mm256_cvtps_epi32(a.v)};
+#endif
+#if defined(__AVX512F__)
+  else if constexpr (N == 16) return {(typename Register<N>::Int)_mm512_cvtps_epi32(a.v)};
+#endif
+}
+template <int N>
+FASCICLE_INLINE WideFloat<N> to_float(WideInt<N> a) {
+  if constexpr (!kIsNative<N>) return {to_float(a.lo), to_float(a.hi)};
+  else return {__builtin_convertvector(a.v, typename Register<N>::Float)};
+}
+
+// The lanes' sum, first to last whatever the machine.
+template <int N>
+FASCICLE_INLINE float sum_in_order(WideFloat<N> a) {
+  float lanes[N];
+  store(a, lanes);
+  float sum = lanes[0];
+  for (int i = 1; i < N; ++i) sum += lanes[i];
+  return sum;
+}
+
+// --- Writing N records of four floats, x y z w each, from four registers: the transpose of the lanes. With kStream
+// past the caches; `to` must then be aligned to 32 bytes.
+
+FASCICLE_INLINE void store_four(float* to, __m128 a, bool stream) {
+  if (stream) _mm_stream_ps(to, a);
+  else _mm_storeu_ps(to, a);
+}
+
+template <bool kStream>
+FASCICLE_INLINE void store_records(WideFloat<4> x, WideFloat<4> y, WideFloat<4> z, WideFloat<4> w, float* to) {
+  __m128 a = x.v, b = y.v, c = z.v, d = w.v;
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+  store_four(to, a, kStream);
+  store_four(to + 4, b, kStream);
+  store_four(to + 8, c, kStream);
+  store_four(to + 12, d, kStream);
+}
+
+#if defined(__AVX2__)
+FASCICLE_INLINE void store_eight(float* to, __m256 a, bool stream) {
+  if (stream) _mm256_stream_ps(to, a);
+  else _mm256_storeu_ps(to, a);
+}
+
+template <bool kStream>
+FASCICLE_INLINE void store_records(WideFloat<8> x, WideFloat<8> y, WideFloat<8> z, WideFloat<8> w, float* to) {
+  const __m256 xy_lo = _mm256_unpacklo_ps(x.v, y.v), xy_hi = _mm256_unpackhi_ps(x.v, y.v);
+  const __m256 zw_lo = _mm256_unpacklo_ps(z.v, w.v), zw_hi = _mm256_unpackhi_ps(z.v, w.v);
+  const __m256 r04 = _mm256_shuffle_ps(xy_lo, zw_lo, 0x44), r15 = _mm256_shuffle_ps(xy_lo, zw_lo, 0xee);
+  const __m256 r26 = _mm256_shuffle_ps(xy_hi, zw_hi, 0x44), r37 = _mm256_shuffle_ps(xy_hi, zw_hi, 0xee);
+  store_eight(to, _mm256_permute2f128_ps(r04, r15, 0x20), kStream);
+  store_eight(to + 8, _mm256_permute2f128_ps(r26, r37, 0x20), kStream);
+  store_eight(to + 16, _mm256_permute2f128_ps(r04, r15, 0x31), kStream);
+  store_eight(to + 24, _mm256_permute2f128_ps(r26, r37, 0x31), kStream);
+}
+#endif
+
+#if defined(__AVX512F__)
+template <bool kStream>
+FASCICLE_INLINE void store_sixteen(float* to, __m512 a) {
+  if constexpr (kStream) {  // 64-byte streaming stores would need records aligned to 64
+    _mm256_stream_ps(to, _mm512_castps512_ps256(a));
+    _mm256_stream_ps(to + 8, _mm512_extractf32x8_ps(a, 1));
+  } else {
+    _mm512_storeu_ps(to, a);
+  }
+}
+
+template <bool kStream>
+FASCICLE_INLINE void store_records(WideFloat<16> x, WideFloat<16> y, WideFloat<16> z, WideFloat<16> w, float* to) {
+  const __m512 xy_lo = _mm512_unpacklo_ps(x.v, y.v), xy_hi = _mm512_unpackhi_ps(x.v, y.v);
+  const __m512 zw_lo = _mm512_unpacklo_ps(z.v, w.v), zw_hi = _mm512_unpackhi_ps(z.v, w.v);
+  const __m512 r0 = _mm512_shuffle_ps(xy_lo, zw_lo, 0x44), r1 = _mm512_shuffle_ps(xy_lo, zw_lo, 0xee);
+  const __m512 r2 = _mm512_shuffle_ps(xy_hi, zw_hi, 0x44), r3 = _mm512_shuffle_ps(xy_hi, zw_hi, 0xee);
+  const __m512 a = _mm512_shuffle_f32x4(r0, r1, 0x44), b = _mm512_shuffle_f32x4(r2, r3, 0x44);
+  const __m512 c = _mm512_shuffle_f32x4(r0, r1, 0xee), d = _mm512_shuffle_f32x4(r2, r3, 0xee);
+  store_sixteen<kStream>(to, _mm512_shuffle_f32x4(a, b, 0x88));
+  store_sixteen<kStream>(to + 16, _mm512_shuffle_f32x4(a, b, 0xdd));
+  store_sixteen<kStream>(to + 32, _mm512_shuffle_f32x4(c, d, 0x88));
+  store_sixteen<kStream>(to + 48, _mm512_shuffle_f32x4(c, d, 0xdd));
+}
+#endif
+
+template <bool kStream, int N>
+  requires(!kIsNative<N>)
+FASCICLE_INLINE void store_records(WideFloat<N> x, WideFloat<N> y, WideFloat<N> z, WideFloat<N> w, float* to) {
+  store_records<kStream>(x.lo, y.lo, z.lo, w.lo, to);
+  store_records<kStream>(x.hi, y.hi, z.hi, w.hi, to + N / 2 * 4);
+}
+
+// --- Three of them, as vectors in space.
+
+template <int N>
+struct WideVector {
+  WideFloat<N> x, y, z;
+};
+template <int N>
+FASCICLE_INLINE WideVector<N> operator+(WideVector<N> a, WideVector<N> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+template <int N>
+FASCICLE_INLINE WideVector<N> operator-(WideVector<N> a, WideVector<N> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <int N>
+FASCICLE_INLINE WideVector<N> operator*(WideFloat<N> s, WideVector<N> a) { return {s * a.x, s * a.y, s * a.z}; }
+template <int N>
+FASCICLE_INLINE WideFloat<N> dot(WideVector<N> a, WideVector<N> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <int N>
+FASCICLE_INLINE WideVector<N> cross(WideVector<N> a, WideVector<N> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <int N>
+FASCICLE_INLINE WideVector<N> select(WideInt<N> mask, WideVector<N> a, WideVector<N> b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+}  // namespace fascicle::FASCICLE_ISA

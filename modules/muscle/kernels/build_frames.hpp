@@ -1,0 +1,185 @@
+// Points -> cross-section frames (1.2), 16 muscles side by side, because each muscle's frames are a chain.
+//
+// The tangent is t_k = normalize(a_{k+1} - a_{k-1}), one-sided at the ends. The direction u_k is carried from section
+// to section without turning about the line, by the double reflection of Wang et al. (2008): reflect u and t in the
+// plane between a_k and a_{k+1}, then in the plane that takes the reflected t to t_{k+1}. It starts from the origin's
+// bone: its rest tangent and u_0, turned by the bone, carried onto t_0 by the shortest arc. (Projecting the bone's u_0
+// onto the section instead breaks down when the line swings by a right angle, as hip muscles do; the shortest arc
+// does only at half a turn.) The insertion's bone carries a direction the same way; the angle from u to it is the
+// muscle's twist, zero at rest, unwrapped against the last frame, and spread over the sections by arc length.
+//
+// Steps too short to have a direction, hairpins and reversals keep the previous direction, so that no lane ever divides
+// by zero. Lanes that end early repeat their last section.
+// For the kernels' source files only (see engine/math/wide_float.hpp).
+#pragma once
+
+#include "engine/math/wide_float.hpp"
+#include "engine/math/wide_trigonometry.hpp"
+#include "modules/muscle/kernels/mtu_kernels.hpp"
+#include "modules/muscle/kernels/place_points.hpp"
+
+namespace fascicle::muscle::FASCICLE_ISA {
+
+// Squared length (m^2) below which a step has no direction: 10 micrometres, a few roundings at 10 m from the origin.
+inline constexpr float kShortestStepSquared = 1.0e-10f;
+// Squared sine below which a chord is too square to the tangent for a reflection to be meaningful (84 degrees).
+inline constexpr float kSquareChord = 0.01f;
+// Squared length of t' - t_L below which the second reflection is left out.
+inline constexpr float kSameTangent = 1.0e-8f;
+
+template <int N>
+FASCICLE_INLINE WideVector<N> normalized(WideVector<N> a) {
+  return (broadcast<N>(1.0f) / square_root(dot(a, a))) * a;
+}
+
+// `r`, square to `t`, carried to the tangent `next_t` along `step`; along no step: by the shortest arc.
+template <int N>
+FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector<N> step, WideVector<N> next_t) {
+  const WideFloat<N> one = broadcast<N>(1.0f), two = broadcast<N>(2.0f);
+  const WideFloat<N> length_squared = dot(step, step);
+  const WideFloat<N> along = dot(step, t);
+  const WideInt<N> usable = (broadcast<N>(kShortestStepSquared) < length_squared) &
+                            (kSquareChord * length_squared < along * along);
+  const WideVector<N> mirror = select(usable, step, t);
+  const WideFloat<N> k1 = two / select(usable, length_squared, one);
+  const WideVector<N> r_reflected = r - (k1 * dot(mirror, r)) * mirror;
+  const WideVector<N> t_reflected = t - (k1 * select(usable, along, one)) * mirror;
+  const WideVector<N> second = next_t - t_reflected;
+  const WideFloat<N> second_squared = dot(second, second);
+  const WideInt<N> turns = broadcast<N>(kSameTangent) < second_squared;
+  const WideFloat<N> k2 = two / select(turns, second_squared, one);
+  const WideVector<N> turned = r_reflected - (k2 * dot(second, r_reflected)) * second;
+  const WideVector<N> result = select(turns, turned, r_reflected);
+  return result - dot(result, next_t) * next_t;
+}
+
+struct LaneDirections {
+  alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+};
+
+template <int N>
+FASCICLE_INLINE WideVector<N> load_directions(const LaneDirections& from) {
+  return {load<N>(from.x), load<N>(from.y), load<N>(from.z)};
+}
+
+// The end frames of a block's lanes, turned by their bones.
+FASCICLE_INLINE void turn_ends(const float* bones, const EndFrame* ends, LaneDirections* tangents,
+                               LaneDirections* references) {
+  for (int end = 0; end < 2; ++end) {
+    for (std::uint32_t lane = 0; lane < kLanes; lane += 4) {
+      __m128 t[4], u[4];
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        const EndFrame& frame = ends[2 * (lane + i) + static_cast<std::uint32_t>(end)];
+        t[i] = transform(bones + 16 * frame.bone, frame.tangent).v;
+        u[i] = transform(bones + 16 * frame.bone, frame.reference).v;
+      }
+      _MM_TRANSPOSE4_PS(t[0], t[1], t[2], t[3]);
+      _MM_TRANSPOSE4_PS(u[0], u[1], u[2], u[3]);
+      store(WideFloat<4>{t[0]}, tangents[end].x + lane);
+      store(WideFloat<4>{t[1]}, tangents[end].y + lane);
+      store(WideFloat<4>{t[2]}, tangents[end].z + lane);
+      store(WideFloat<4>{u[0]}, references[end].x + lane);
+      store(WideFloat<4>{u[1]}, references[end].y + lane);
+      store(WideFloat<4>{u[2]}, references[end].z + lane);
+    }
+  }
+}
+
+// Stores `value`, except in held lanes.
+template <bool kHold, int N>
+FASCICLE_INLINE void store_free(WideFloat<N> value, WideInt<N> held, float* to) {
+  if constexpr (kHold) value = select(held, load<N>(to), value);
+  store(value, to);
+}
+
+template <bool kHold>
+inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
+  constexpr int N = kLanes;
+  using Float = WideFloat<N>;
+  using Vector = WideVector<N>;
+  const LaneBlock& block = job.blocks[block_index];
+  const std::size_t first = block.first_slot;
+  const std::size_t lane = block_index * kLanes;
+  const Float zero = broadcast<N>(0.0f), one = broadcast<N>(1.0f);
+  const WideInt<N> counts = load_int<N>(block.counts);
+  const WideInt<N> held = kHold ? load_int<N>(job.held + lane) : broadcast_int<N>(0);
+  const auto point = [&](std::size_t k) __attribute__((always_inline)) {
+    const std::size_t slot = first + kLanes * k;
+    return Vector{load<N>(job.x + slot), load<N>(job.y + slot), load<N>(job.z + slot)};
+  };
+
+  LaneDirections tangents[2], references[2];
+  turn_ends(job.bones, job.ends + 2 * lane, tangents, references);
+
+  // Along the line: tangents, carried directions, arc length.
+  Vector t = normalized(load_directions<N>(tangents[0]));
+  Vector r = load_directions<N>(references[0]);
+  r = normalized(r - dot(r, t) * t);
+  Vector before = point(0), here = before, u = r;
+  Float arc = zero;
+  for (std::uint32_t k = 0; k < block.height; ++k) {
+    const std::size_t slot = first + kLanes * std::size_t{k};
+    Vector next = here;
+    if (k + 1 < block.height) {
+      next = select(broadcast_int<N>(static_cast<int>(k + 1)) < counts, point(k + 1), here);
+    }
+    const Vector chord = next - before;
+    const Float chord_squared = dot(chord, chord);
+    const WideInt<N> has_direction = broadcast<N>(kShortestStepSquared) < chord_squared;
+    const Float inverse = one / square_root(select(has_direction, chord_squared, one));
+    const Vector next_t = select(has_direction, inverse * chord, t);
+    r = carry(r, t, here - before, next_t);
+    t = next_t;
+    u = normalized(r);
+    const Vector v = cross(t, u);
+    store_free<kHold>(u.x, held, job.ux + slot);
+    store_free<kHold>(u.y, held, job.uy + slot);
+    store_free<kHold>(u.z, held, job.uz + slot);
+    store_free<kHold>(v.x, held, job.vx + slot);
+    store_free<kHold>(v.y, held, job.vy + slot);
+    store_free<kHold>(v.z, held, job.vz + slot);
+    store_free<kHold>(arc, held, job.arc + slot);
+    const Vector step = next - here;
+    arc = arc + square_root(dot(step, step));
+    before = here;
+    here = next;
+  }
+
+  // The twist at the insertion.
+  const Vector end_t = normalized(load_directions<N>(tangents[1]));
+  Vector wanted = load_directions<N>(references[1]);
+  wanted = carry(wanted - dot(wanted, end_t) * end_t, end_t, Vector{zero, zero, zero}, t);
+  Float twist = arc_tangent(dot(cross(t, u), wanted), dot(u, wanted));
+  const Float last = job.restart_twist ? zero : load<N>(job.twist + lane);
+  twist = twist + 6.2831853071795865f * to_float(round_to_int(0.15915494309189534f * (last - twist)));
+  store_free<kHold>(twist, held, job.twist + lane);
+
+  // Spread over the sections.
+  const WideInt<N> has_length = broadcast<N>(1.0e-5f) < arc;
+  Float rate = select(has_length, twist / select(has_length, arc, one), zero);
+  if constexpr (kHold) rate = select(held, zero, rate);
+  for (std::uint32_t k = 0; k < block.height; ++k) {
+    const std::size_t slot = first + kLanes * std::size_t{k};
+    const Vector u_k{load<N>(job.ux + slot), load<N>(job.uy + slot), load<N>(job.uz + slot)};
+    const Vector v_k{load<N>(job.vx + slot), load<N>(job.vy + slot), load<N>(job.vz + slot)};
+    Float sine, cosine;
+    sine_cosine(rate * load<N>(job.arc + slot), sine, cosine);
+    const Vector turned_u = cosine * u_k + sine * v_k;
+    const Vector turned_v = cosine * v_k - sine * u_k;
+    store(turned_u.x, job.ux + slot);
+    store(turned_u.y, job.uy + slot);
+    store(turned_u.z, job.uz + slot);
+    store(turned_v.x, job.vx + slot);
+    store(turned_v.y, job.vy + slot);
+    store(turned_v.z, job.vz + slot);
+  }
+}
+
+inline void build_frames(const BuildFramesJob& job) {
+  for (std::size_t block = 0; block < job.block_count; ++block) {
+    if (job.held == nullptr) build_block<false>(job, block);
+    else build_block<true>(job, block);
+  }
+}
+
+}  // namespace fascicle::muscle::FASCICLE_ISA

@@ -1,0 +1,1 @@
+#include "modules/muscle/kernels/mtu_kernel_table.hpp"
