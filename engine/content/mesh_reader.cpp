@@ -28,28 +28,53 @@ bool is_gltf(const std::filesystem::path& file) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-// Appends a mesh in the file's rest space. Skinned meshes stand in their bind space already, which is that space.
+// Appends a mesh in the file's rest space. Each vertex goes there by one matrix: that of the node, or the blend of its
+// joints at rest.
+class MeshAppender {
+ public:
+  MeshAppender(const GltfFile& file, const GltfMesh& mesh) : mesh_(mesh) {
+    const auto rest = [&](std::int32_t bone) { return file.skeleton.rest_world[static_cast<std::size_t>(bone)]; };
+    if (mesh.skin < 0) {
+      matrices_.push_back(rest(mesh.bone));
+      return;
+    }
+    const GltfSkin& skin = file.skins[static_cast<std::size_t>(mesh.skin)];
+    for (std::size_t j = 0; j < skin.bones.size(); ++j)
+      matrices_.push_back(rest(skin.bones[j]) * skin.inverse_binds[j]);
+  }
+
+  void append_to(TriangleMesh& out) const {
+    const auto first = static_cast<std::uint32_t>(out.positions.size());
+    const TriangleMesh& from = mesh_.geometry;
+    for (std::size_t i = 0; i < from.positions.size(); ++i) append_vertex(i, out);
+    const bool mirrored = mesh_.skin < 0 && glm::determinant(glm::mat3(matrices_[0])) < 0.0f;
+    for (std::size_t i = 0; i + 2 < from.indices.size(); i += 3) {
+      out.indices.push_back(first + from.indices[i]);
+      out.indices.push_back(first + from.indices[mirrored ? i + 2 : i + 1]);
+      out.indices.push_back(first + from.indices[mirrored ? i + 1 : i + 2]);
+    }
+  }
+
+ private:
+  void append_vertex(std::size_t i, TriangleMesh& out) const {
+    glm::mat4 matrix(0.0f);
+    if (mesh_.skin < 0) matrix = matrices_[0];
+    for (int k = 0; mesh_.skin >= 0 && k < 4; ++k) matrix += mesh_.weights[i][k] * matrices_[mesh_.joints[i][k]];
+    out.positions.push_back(glm::vec3(matrix * glm::vec4(mesh_.geometry.positions[i], 1.0f)));
+    // The cofactor matrix turns normals also where the matrix has no inverse.
+    const glm::mat3 m(matrix);
+    const glm::mat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const glm::vec3 normal = cofactor * mesh_.geometry.normals[i] * (glm::determinant(m) < 0.0f ? -1.0f : 1.0f);
+    const float length = glm::length(normal);
+    out.normals.push_back(length > 0.0f ? normal / length : mesh_.geometry.normals[i]);
+  }
+
+  const GltfMesh& mesh_;
+  std::vector<glm::mat4> matrices_;
+};
+
 void append_mesh(const GltfFile& file, const GltfMesh& mesh, TriangleMesh& out) {
-  const glm::mat4 to_file =
-      mesh.skin >= 0 ? glm::mat4(1.0f) : file.skeleton.rest_world[static_cast<std::size_t>(mesh.bone)];
-  const glm::mat3 linear(to_file);
-  const bool mirrored = glm::determinant(linear) < 0.0f;
-  const auto first = static_cast<std::uint32_t>(out.positions.size());
-  for (const glm::vec3& p : mesh.geometry.positions) out.positions.push_back(glm::vec3(to_file * glm::vec4(p, 1.0f)));
-  // The cofactor matrix turns normals also where the matrix has no inverse.
-  const glm::mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                           glm::cross(linear[0], linear[1]));
-  for (const glm::vec3& n : mesh.geometry.normals) {
-    const glm::vec3 turned = (mirrored ? -1.0f : 1.0f) * (cofactor * n);
-    const float length = glm::length(turned);
-    out.normals.push_back(length > 0.0f ? turned / length : n);
-  }
-  const std::vector<std::uint32_t>& indices = mesh.geometry.indices;
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    out.indices.push_back(first + indices[i]);
-    out.indices.push_back(first + indices[mirrored ? i + 2 : i + 1]);
-    out.indices.push_back(first + indices[mirrored ? i + 1 : i + 2]);
-  }
+  MeshAppender(file, mesh).append_to(out);
 }
 
 }  // namespace

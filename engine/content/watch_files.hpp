@@ -13,8 +13,8 @@ namespace fascicle {
 class FileWatcher {
  public:
   // Replaces the set of watched files (duplicates are dropped). Files known before keep their state, so that an edit
-  // made between a load and this call is still reported by the next poll; the state of new ones is taken now. A file
-  // that is absent is watched for its appearance.
+  // made between a load and this call is still reported by the next poll; the state of new ones is taken now, so watch
+  // a file before loading it. A file that is absent is watched for its appearance.
   void watch(std::vector<std::filesystem::path> files);
 
   // Appends to `changed` the files whose content differs from what was last reported (or, at first, seen), and returns
