@@ -82,18 +82,27 @@ bool check_distances(std::span<const PlacedAttachment> line, const MuscleDescrip
     const float straight = glm::distance(line.front().rest, line.back().rest);
     longest *= std::max(1.0f, straight / values.source_length);
   }
+  const auto length_of = [&](std::size_t segment) {
+    return glm::distance(line[segment].rest, line[segment + 1].rest);
+  };
+  const auto too_long = [&](std::size_t segment) { return length_of(segment) > longest; };
   bool fine = true;
-  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const float before = glm::distance(line[i - 1].rest, line[i].rest);
-    const float after = glm::distance(line[i].rest, line[i + 1].rest);
-    const float distance = std::max(before, after);
-    if (distance <= longest) continue;
-    line[i].node.error(
+  const auto blame = [&](std::size_t point, float distance) {
+    fine = false;
+    line[point].node.error(
         diagnostics,
-        fmt::format("the via point is {:.3g} m from its neighbour; the whole muscle can be {:.3g} m long at most",
+        fmt::format("this point is {:.3g} m from its neighbour; the whole muscle can be {:.3g} m long at most",
                     distance, longest),
         "check its bone and the frame and unit (m) of its position, or the muscle's fibre and tendon lengths");
-    fine = false;
+  };
+  // A misplaced point makes the segments on both sides too long; a single long segment is blamed on an end of the line
+  // where it is the first or the last.
+  for (std::size_t segment = 0; segment + 1 < line.size(); ++segment) {
+    if (!too_long(segment)) continue;
+    const bool next_too = segment + 2 < line.size() && too_long(segment + 1);
+    const std::size_t point = segment == 0 && !next_too ? 0 : segment + 1;
+    blame(point, length_of(segment));
+    if (next_too) ++segment;  // the same point's other side
   }
   return fine;
 }

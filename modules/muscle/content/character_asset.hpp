@@ -32,10 +32,10 @@ namespace fascicle::muscle {
 struct MuscleAsset;
 
 struct LoadOptions {
-  std::filesystem::path data_folder;  // what `data:` stands for; empty: find_data_folder()
+  std::filesystem::path data_folder = {};  // what `data:` stands for; empty: find_data_folder()
   // Level of detail for all muscles, in place of what the file says.
-  std::optional<std::uint32_t> section_vertices;           // |C|, even, >= 6
-  std::optional<std::uint32_t> longitudinal_subdivision;   // LSS, 0..6
+  std::optional<std::uint32_t> section_vertices = std::nullopt;          // |C|, even, >= 6
+  std::optional<std::uint32_t> longitudinal_subdivision = std::nullopt;  // LSS, 0..6
 };
 
 // A rigid mesh that follows one bone: `transform` takes its vertices to the bone's frame (m).

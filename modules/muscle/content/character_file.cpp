@@ -101,7 +101,7 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
   std::string schema;
   object.optional("$schema", schema);
   object.require("version");  // its value is migrate's business
-  object.require("name", file.name);
+  file.name = read_name(object, "name", true).text;
   if (const JsonNode node = object.require("skeleton"); node.exists()) read_skeleton(node, file, context);
   if (const JsonNode node = object.optional("skin"); node.exists()) read_skin(node, file, context);
   for (const JsonNode node : object.optional_array("bone_meshes", 0, 10000)) {

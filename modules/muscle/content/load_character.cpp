@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -132,7 +131,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   load_bone_meshes(content, base, sources, *asset, diagnostics);
   std::vector<ResolvedMuscle> resolved;
   if (asset->skeleton) {
-    std::set<std::string> names;
+    MuscleNames names;
     for (std::size_t i = chain.files().size(); i-- > 0;) {  // the base's muscles come first
       resolve_muscles(chain.files()[i]->content, *asset->skeleton, options, names, resolved, diagnostics);
     }

@@ -18,7 +18,7 @@ struct Resolver {
   const Skeleton& skeleton;
   const LoadOptions& options;
   std::vector<glm::dmat4> to_bone;  // inverse rest matrices
-  std::set<std::string>& names;
+  MuscleNames& names;
   Diagnostics& diagnostics;
 };
 
@@ -85,10 +85,12 @@ MuscleDescription describe(const Resolver& resolver, const MuscleEntry& entry, c
 
 // False where a muscle of that name is there already.
 bool claim_name(const Resolver& resolver, const std::string& name, const JsonNode& node, bool mirrored) {
-  if (resolver.names.insert(name).second) return true;
+  const Diagnostic where = node.where();
+  const auto [known, fresh] = resolver.names.emplace(name, fmt::format("{}:{}", where.file, where.line));
+  if (fresh) return true;
   node.error(resolver.diagnostics,
-             mirrored ? fmt::format("the mirror image would be a second muscle '{}'", name)
-                      : fmt::format("a second muscle '{}'", name),
+             fmt::format("{} a second muscle '{}', the first is at {}", mirrored ? "the mirror image would be" : "this is",
+                         name, known->second),
              mirrored ? "write only one side, or leave out \"mirror\"" : "give each muscle a name of its own");
   return false;
 }
@@ -152,7 +154,7 @@ void add_mirror_image(const Resolver& resolver, const MuscleEntry& entry, std::s
 }  // namespace
 
 void resolve_muscles(const CharacterFile& file, const Skeleton& skeleton, const LoadOptions& options,
-                     std::set<std::string>& names, std::vector<ResolvedMuscle>& muscles, Diagnostics& diagnostics) {
+                     MuscleNames& names, std::vector<ResolvedMuscle>& muscles, Diagnostics& diagnostics) {
   Resolver resolver{file, skeleton, options, {}, names, diagnostics};
   for (const glm::mat4& rest : skeleton.rest_world) resolver.to_bone.push_back(glm::inverse(glm::dmat4(rest)));
   for (const MuscleEntry& entry : file.muscles) {

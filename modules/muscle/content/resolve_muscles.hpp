@@ -2,7 +2,7 @@
 // frames, levels and tensions filled in, the other side added, lines checked.
 #pragma once
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,9 @@
 
 namespace fascicle::muscle {
 
+// Names of muscles so far, and where each was written ("file:line").
+using MuscleNames = std::map<std::string, std::string>;
+
 // A description and what it was made from.
 struct ResolvedMuscle {
   MuscleDescription description;
@@ -22,9 +25,8 @@ struct ResolvedMuscle {
   int mirror_axis = -1;    // of the reflection that made it, or -1
 };
 
-// Appends the muscles of one file, each mirrored one after its original, and all errors. `names` holds the names of
-// muscles so far and grows.
+// Appends the muscles of one file, each mirrored one after its original, and all errors. `names` grows.
 void resolve_muscles(const CharacterFile& file, const Skeleton& skeleton, const LoadOptions& options,
-                     std::set<std::string>& names, std::vector<ResolvedMuscle>& muscles, Diagnostics& diagnostics);
+                     MuscleNames& names, std::vector<ResolvedMuscle>& muscles, Diagnostics& diagnostics);
 
 }  // namespace fascicle::muscle

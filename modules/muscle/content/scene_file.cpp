@@ -56,7 +56,7 @@ SceneFile read_scene_file(const JsonNode& root, const ReadContext& context) {
   std::string schema;
   object.optional("$schema", schema);
   object.require("version");  // its value is migrate's business
-  object.require("name", file.values.name);
+  file.values.name = read_name(object, "name", true).text;
   file.requires_data = object.optional("requires_data");
   if (file.requires_data.exists()) file.requires_data.read(file.values.requires_data, context.diagnostics);
   object.optional("step_hz", file.values.step_hz, between(1, 10000));
