@@ -7,29 +7,32 @@
 #include "engine/content/file_text.hpp"
 
 namespace fascicle {
-namespace {
 
-std::string number(double value) { return fmt::format("{}", value == 0.0 ? 0.0 : value); }  // no "-0"
+std::string json_number(double value) { return fmt::format("{}", value == 0.0 ? 0.0 : value); }  // no "-0"
 
-std::string list(std::span<const double> values) {
+std::string json_list(std::span<const double> values) {
   std::string text = "[";
-  for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "" : ", ") + number(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "" : ", ") + json_number(values[i]);
   return text + "]";
 }
 
-std::string list(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z)); }
+std::string json_list(const glm::dvec3& vector) {
+  return fmt::format("[{}, {}, {}]", json_number(vector.x), json_number(vector.y), json_number(vector.z));
+}
+
+namespace {
 
 std::string function_text(const ScalarFunction& function) {
   const auto knots = [&](const char* kind) {
-    return fmt::format("{{ \"{}\": {{ \"x\": {},\n@\"y\": {} }} }}", kind, list(function.x()), list(function.y()));
+    return fmt::format("{{ \"{}\": {{ \"x\": {},\n@\"y\": {} }} }}", kind, json_list(function.x()), json_list(function.y()));
   };
   switch (function.kind()) {
     case ScalarFunction::Kind::kConstant:
-      return number(function.coefficients()[0]);
+      return json_number(function.coefficients()[0]);
     case ScalarFunction::Kind::kLinear:
-      return fmt::format("{{ \"linear\": {} }}", list(function.coefficients()));
+      return fmt::format("{{ \"linear\": {} }}", json_list(function.coefficients()));
     case ScalarFunction::Kind::kPolynomial:
-      return fmt::format("{{ \"polynomial\": {} }}", list(function.coefficients()));
+      return fmt::format("{{ \"polynomial\": {} }}", json_list(function.coefficients()));
     case ScalarFunction::Kind::kPiecewiseLinear:
       return knots("piecewise_linear");
     case ScalarFunction::Kind::kSpline:
@@ -88,9 +91,9 @@ class JointModelWriter {
   std::string body(std::size_t b) const {
     const BodyInertia& inertia = model_.bodies[b];
     std::string content = fmt::format("{{ \"name\": {}", quote_json(model_.skeleton->names[b]));
-    if (inertia.mass != 0.0) content += fmt::format(", \"mass\": {}", number(inertia.mass));
-    if (inertia.mass_center != glm::dvec3(0.0)) content += ", \"mass_center\": " + list(inertia.mass_center);
-    if (inertia.inertia != std::array<double, 6>{}) content += ", \"inertia\": " + list(inertia.inertia);
+    if (inertia.mass != 0.0) content += fmt::format(", \"mass\": {}", json_number(inertia.mass));
+    if (inertia.mass_center != glm::dvec3(0.0)) content += ", \"mass_center\": " + json_list(inertia.mass_center);
+    if (inertia.inertia != std::array<double, 6>{}) content += ", \"inertia\": " + json_list(inertia.inertia);
     return content + " }";
   }
 
@@ -98,7 +101,7 @@ class JointModelWriter {
     static constexpr const char* kKinds[] = {"rotation", "translation", "coupled"};
     std::string content = fmt::format("{{ \"name\": {}, \"kind\": \"{}\", \"default\": {}, \"range\": [{}, {}]",
                                       quote_json(c.name), kKinds[static_cast<std::size_t>(c.kind)],
-                                      number(c.default_value), number(c.minimum), number(c.maximum));
+                                      json_number(c.default_value), json_number(c.minimum), json_number(c.maximum));
     if (c.clamped) content += ", \"clamped\": true";
     if (c.locked) content += ", \"locked\": true";
     if (c.driver >= 0) {
@@ -126,8 +129,8 @@ class JointModelWriter {
     const bool turned = orientation != glm::dvec3(0.0);
     if (!moved && !turned) return;
     std::string content;
-    if (moved) content = "\"translation\": " + list(translation);
-    if (turned) content += std::string(moved ? ", " : "") + "\"orientation\": " + list(orientation);
+    if (moved) content = "\"translation\": " + json_list(translation);
+    if (turned) content += std::string(moved ? ", " : "") + "\"orientation\": " + json_list(orientation);
     text_ += ",";
     line(3, fmt::format("\"{}\": {{ {} }}", name, content));
   }
@@ -137,7 +140,7 @@ class JointModelWriter {
     std::vector<std::string> lines;
     for (const JointAxis& axis : axes) {
       if (axis.function.is_zero()) continue;
-      std::string content = "{ \"axis\": " + list(axis.axis);
+      std::string content = "{ \"axis\": " + json_list(axis.axis);
       if (axis.coordinate >= 0) {
         const JointCoordinate& driver = model_.coordinates[static_cast<std::size_t>(axis.coordinate)];
         content += ", \"coordinate\": " + quote_json(driver.name);
