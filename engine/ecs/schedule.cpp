@@ -195,7 +195,12 @@ class ScheduleRun {
     SystemTiming& timing = frame_.timings[barrier_row_++];
     timing.worker = parallel::current_worker();
     timing.start_ns = timing.end_ns = monotonic_ns();
-    for (const std::size_t id : stage.commands) frame_.nodes[id]->commands->apply(world_);
+    try {
+      for (const std::size_t id : stage.commands) frame_.nodes[id]->commands->apply(world_);
+    } catch (...) {
+      for (const std::size_t id : stage.commands) frame_.nodes[id]->commands->clear();
+      throw;
+    }
     timing.end_ns = monotonic_ns();
   }
 

@@ -3,8 +3,6 @@
 // View<...>, Resource<T> and Commands&, and which returns nothing.
 #pragma once
 
-#include <stdexcept>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -25,6 +23,9 @@ struct SystemContext {
 
 namespace detail {
 
+// std::logic_error that names both and says what to do.
+[[noreturn]] void throw_missing_resource(std::string_view system, TypeId resource);
+
 template <class P>
 struct Parameter {
   static_assert(!sizeof(P), "a system's parameters are View<...>, Resource<T> and Commands&");
@@ -41,11 +42,7 @@ struct Parameter<Resource<T>> {
   static void declare(Access& access) { access.declare({type_id<T>(), true, !std::is_const_v<T>}); }
   static Resource<T> fetch(SystemContext& context) {
     T* found = context.world.try_resource<T>();
-    if (found == nullptr) {
-      throw std::logic_error("system " + std::string(context.name) + " needs the resource " +
-                             std::string(type_id<T>()->name) +
-                             ", which the world does not hold; call world.set_resource before the schedule runs");
-    }
+    if (found == nullptr) throw_missing_resource(context.name, type_id<T>());
     return Resource<T>(*found);
   }
 };
