@@ -93,7 +93,7 @@ std::string FrameStats::to_json() const {
   fmt::format_to(out, "  \"measuring_percent\": {:.6f},\n  \"notes\": {{", measuring_percent());
   const char* separator = "";
   for (const auto& [name, value] : notes_) {
-    fmt::format_to(out, "{}\n    {}: {}", std::exchange(separator, ","), quote_json(name), quote_json(value));
+    fmt::format_to(out, "{}\n    {}: {}", std::exchange(separator, ","), quoted_json(name), quoted_json(value));
   }
   text += "\n  },\n  \"rows\": [";
   separator = "";
@@ -101,7 +101,7 @@ std::string FrameStats::to_json() const {
     fmt::format_to(out,
                    "{}\n    {{\"kind\": \"{}\", \"name\": {}, \"frames\": {}, \"min_ms\": {:.6f}, \"mean_ms\": {:.6f}, "
                    "\"p50_ms\": {:.6f}, \"p95_ms\": {:.6f}, \"p99_ms\": {:.6f}, \"max_ms\": {:.6f}}}",
-                   std::exchange(separator, ","), to_text(row.kind), quote_json(row.name), row.frames, row.min_ms,
+                   std::exchange(separator, ","), to_text(row.kind), quoted_json(row.name), row.frames, row.min_ms,
                    row.mean_ms, row.p50_ms, row.p95_ms, row.p99_ms, row.max_ms);
   }
   text += "\n  ],\n  \"items\": [";
@@ -110,14 +110,14 @@ std::string FrameStats::to_json() const {
     fmt::format_to(out,
                    "{}\n    {{\"system\": {}, \"owner\": {}, \"item\": {}, \"frames\": {}, \"min_ms\": {:.6f}, "
                    "\"mean_ms\": {:.6f}, \"max_ms\": {:.6f}}}",
-                   std::exchange(separator, ","), quote_json(row.system), quote_json(row.owner), quote_json(row.item),
+                   std::exchange(separator, ","), quoted_json(row.system), quoted_json(row.owner), quoted_json(row.item),
                    row.frames, row.min_ms, row.mean_ms, row.max_ms);
   }
   text += "\n  ],\n  \"memory\": [";
   separator = "";
   for (const ecs::ComponentMemory& component : memory_) {
     fmt::format_to(out, "{}\n    {{\"component\": {}, \"count\": {}, \"bytes\": {}}}", std::exchange(separator, ","),
-                   quote_json(component.name), component.count, component.bytes);
+                   quoted_json(component.name), component.count, component.bytes);
   }
   return text + "\n  ]\n}\n";
 }

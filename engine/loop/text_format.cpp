@@ -33,7 +33,7 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-std::string quote_json(std::string_view text) {
+std::string quoted_json(std::string_view text) {
   std::string result = "\"";
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);

@@ -7,7 +7,7 @@
 namespace fascicle {
 
 // With its quotes, valid JSON whatever the bytes: control characters escaped, broken UTF-8 as U+FFFD.
-std::string quote_json(std::string_view text);
+std::string quoted_json(std::string_view text);
 
 // A CSV field (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string quote_csv(std::string_view text);

@@ -94,7 +94,7 @@ void Trace::record(std::span<const ecs::SystemTiming> timings) {
 
 std::string Trace::to_json() const {
   std::vector<std::string> quoted;
-  for (const std::string* text : texts_) quoted.push_back(quote_json(*text));
+  for (const std::string* text : texts_) quoted.push_back(quoted_json(*text));
 
   std::string text = fmt::format(
       "{{\"displayTimeUnit\":\"ms\",\"otherData\":{{\"dropped_events\":\"{}\"}},\"traceEvents\":[\n"
@@ -106,7 +106,7 @@ std::string Trace::to_json() const {
     fmt::format_to(out,
                    ",\n{{\"ph\":\"M\",\"name\":\"thread_name\",\"pid\":{0},\"tid\":{1},"
                    "\"args\":{{\"name\":{2}}}}}",
-                   kProcess, thread, quote_json(name));
+                   kProcess, thread, quoted_json(name));
     fmt::format_to(out,
                    ",\n{{\"ph\":\"M\",\"name\":\"thread_sort_index\",\"pid\":{0},\"tid\":{1},"
                    "\"args\":{{\"sort_index\":{1}}}}}",
