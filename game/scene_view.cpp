@@ -1,5 +1,6 @@
 #include "game/scene_view.hpp"
 
+#include "engine/animation/skinning_systems.hpp"
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 

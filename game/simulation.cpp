@@ -114,7 +114,7 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
   const float phase = fraction(placed.animation.phase + kPhaseOfCopy * static_cast<float>(copy));
   if (placed.animation.clip) {
     world_.add(spawned.entity, ClipPlayer{.clip = placed.animation.clip,
-                                          .time = phase * placed.animation.clip->duration,
+                                          .time = phase * placed.animation.clip->duration(),
                                           .speed = placed.animation.speed});
   }
   if (asset.joints) {
