@@ -1,0 +1,131 @@
+#include "engine/render/overlay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/engine/render/render_fixture.hpp"
+
+namespace fascicle {
+namespace {
+
+class OverlayTest : public RenderFixture {
+ protected:
+  void SetUp() override {
+    RenderFixture::SetUp();
+    if (IsSkipped()) return;
+    RendererOptions options = test_options();
+    options.width = 1000;
+    options.height = 600;
+    make_renderer(options);
+    Result<std::unique_ptr<Overlay>> overlay = Overlay::create();
+    ASSERT_TRUE(overlay.ok()) << to_text(overlay.diagnostics());
+    overlay_ = std::move(*overlay);
+  }
+  void TearDown() override {
+    overlay_.reset();
+    RenderFixture::TearDown();
+  }
+
+  // A frame with the pointer at `mouse`, its left button held or not.
+  OverlayActions frame(const OverlayModel& model, const glm::vec2& mouse, bool held) {
+    InputState input;
+    input.mouse = mouse;
+    input.buttons[0] = held;
+    renderer_->draw(test_view());
+    return overlay_->draw(model, input, 1.0f / 60.0f, *renderer_);
+  }
+  // Presses and lets go at `mouse`; what came of the two frames.
+  OverlayActions click(const OverlayModel& model, const glm::vec2& mouse) {
+    frame(model, mouse, false);
+    const OverlayActions pressed = frame(model, mouse, true);
+    OverlayActions released = frame(model, mouse, false);
+    released.toggle_pause |= pressed.toggle_pause;
+    released.single_step |= pressed.single_step;
+    released.switched = std::max(released.switched, pressed.switched);
+    released.item_highlighted = std::max(released.item_highlighted, pressed.item_highlighted);
+    released.item_visibility = std::max(released.item_visibility, pressed.item_visibility);
+    return released;
+  }
+
+  std::unique_ptr<Overlay> overlay_;
+};
+
+OverlayModel make_model() {
+  static const OverlayTiming systems[] = {{"advance_clips", 0.02f}, {"place_sections", 0.31f}};
+  static const OverlaySwitch switches[] = {{"skin", true, "1"}, {"bones", false, "2"}, {"sections", false, "3"}};
+  static const OverlayItem items[] = {{"soleus_r", {312.5f, 431.0f, 0.0f}, true, false, false},
+                                      {"gracilis_r", {400.0f, 101.0f, 0.0f}, true, false, false}};
+  OverlayModel model;
+  model.title = "walker";
+  model.subtitle = "test";
+  model.frame_milliseconds = 8.0f;
+  model.systems = systems;
+  model.switches = switches;
+  model.items = items;
+  model.value_headings[0] = "length, mm";
+  model.value_headings[1] = "volume, ml";
+  return model;
+}
+
+TEST_F(OverlayTest, OnlyOneAtATime) { EXPECT_FALSE(Overlay::create().ok()); }
+
+TEST_F(OverlayTest, DrawsPanelsAndLeavesTheRestAlone) {
+  frame(make_model(), {-1, -1}, false);
+  frame(make_model(), {-1, -1}, false);
+  const Image image = renderer_->read_image();
+  EXPECT_FALSE(is_background(image.pixel(20, 20)));
+  EXPECT_FALSE(is_background(image.pixel(980, 30)));
+  EXPECT_TRUE(is_background(image.pixel(500, 300)));
+  EXPECT_FALSE(overlay_->wants_mouse());
+}
+
+TEST_F(OverlayTest, MessagesAppearAtTheBottomAndGo) {
+  const std::string errors[] = {"walker.character.json:3:5: /muscles/0: unknown bone 'tibea_r'; write 'tibia_r'"};
+  OverlayModel model = make_model();
+  model.errors = errors;
+  for (int i = 0; i < 3; ++i) frame(model, {-1, -1}, false);
+  const Image with = renderer_->read_image();
+  int red = 0;
+  for (int y = 480; y < 600; ++y) {
+    for (int x = 200; x < 800; ++x) {
+      const std::uint8_t* pixel = with.pixel(x, y);
+      red += pixel[0] > 180 && pixel[1] < 160 && pixel[2] < 160;
+    }
+  }
+  EXPECT_GT(red, 200);
+  model.errors = {};
+  for (int i = 0; i < 2; ++i) frame(model, {-1, -1}, false);
+  EXPECT_TRUE(is_background(renderer_->read_image().pixel(500, 580)));
+}
+
+TEST_F(OverlayTest, ClicksBecomeActions) {
+  const OverlayModel model = make_model();
+  bool paused = false, stepped = false, switched[3] = {}, highlighted[2] = {}, hidden[2] = {};
+  for (float y = 20.0f; y < 400.0f; y += 7.0f) {
+    for (const float x : {25.0f, 45.0f, 110.0f, 185.0f, 683.0f, 720.0f}) {
+      const OverlayActions actions = click(model, {x, y});
+      paused |= actions.toggle_pause;
+      stepped |= actions.single_step;
+      if (actions.switched >= 0) switched[actions.switched] = true;
+      if (actions.item_highlighted >= 0) highlighted[actions.item_highlighted] = true;
+      if (actions.item_visibility >= 0) hidden[actions.item_visibility] = true;
+    }
+  }
+  EXPECT_TRUE(paused);
+  EXPECT_TRUE(stepped);
+  EXPECT_THAT(switched, testing::Each(true));
+  EXPECT_THAT(highlighted, testing::Each(true));
+  EXPECT_THAT(hidden, testing::Each(true));
+}
+
+TEST_F(OverlayTest, TakesTheMouseOverItsPanelsOnly) {
+  frame(make_model(), {100, 30}, false);
+  frame(make_model(), {100, 30}, false);
+  EXPECT_TRUE(overlay_->wants_mouse());
+  frame(make_model(), {500, 300}, false);
+  frame(make_model(), {500, 300}, false);
+  EXPECT_FALSE(overlay_->wants_mouse());
+}
+
+}  // namespace
+}  // namespace fascicle
