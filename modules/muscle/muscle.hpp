@@ -9,6 +9,7 @@
 #include "modules/muscle/components/action_lines.hpp"
 #include "modules/muscle/components/cross_sections.hpp"
 #include "modules/muscle/components/muscle_measures.hpp"
+#include "modules/muscle/components/muscle_settings.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
 #include "modules/muscle/components/musculature.hpp"
 #include "modules/muscle/components/tendons.hpp"

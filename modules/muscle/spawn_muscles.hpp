@@ -7,10 +7,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "engine/ecs/entity.hpp"
-#include "engine/math/simd_level.hpp"
+#include "modules/muscle/components/muscle_settings.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
 
 namespace fascicle::ecs {
@@ -21,14 +22,8 @@ namespace fascicle::muscle {
 
 struct MuscleAsset;
 
-// Resource that the muscle systems read.
-struct MuscleSettings {
-  SimdLevel simd = detect_simd();
-  // Surfaces of all musculatures together from which on they are stored past the caches (see write_surfaces).
-  std::size_t stream_bytes = std::size_t{24} << 20;
-};
-
-// Must be called once per world before a schedule with muscle systems runs; again to change the settings.
+// Must be called once per world before a schedule with muscle systems runs; again to change the settings. Gives the
+// world the resources MuscleSettings and, where it has none, CostLedger (engine/loop/cost_ledger.hpp).
 void prepare_muscles(ecs::World& world, const MuscleSettings& settings = {});
 
 // Makes a musculature of `asset` for `character`, which must have BoneMatrices with at least asset->bone_count
@@ -47,6 +42,10 @@ void despawn_musculature(ecs::World& world, ecs::Entity musculature);
 ecs::Entity muscle_entity(const ecs::World& world, ecs::Entity musculature, std::uint32_t index);
 ecs::Entity muscle_entity(const ecs::World& world, ecs::Entity musculature, std::string_view name);
 
+// Lists a musculature and its muscles in the world's CostLedger, so that the systems' times appear per muscle when the
+// ledger is on. `despawn_musculature` takes it out again.
+void list_costs(ecs::World& world, ecs::Entity musculature, std::string label);
+
 // The muscle's current surface; empty for an entity that is not a muscle.
 MuscleSurfaceView surface_of(const ecs::World& world, ecs::Entity muscle);
 
@@ -54,7 +53,7 @@ MuscleSurfaceView surface_of(const ecs::World& world, ecs::Entity muscle);
 float length_of(const ecs::World& world, ecs::Entity muscle);
 
 // A 64-bit hash of all musculatures' state (lines, frames, radii, tendons, measures, surfaces), in the order in which
-// they were spawned. Equal on all instruction sets and thread numbers.
+// the world stores them. Equal on all instruction sets and thread numbers.
 std::uint64_t hash_state(const ecs::World& world);
 
 }  // namespace fascicle::muscle

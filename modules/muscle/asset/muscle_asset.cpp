@@ -31,6 +31,10 @@ std::size_t heap_bytes(const MuscleAsset& asset) {
                     bytes(asset.points) + bytes(asset.rest_x) + bytes(asset.rest_y) + bytes(asset.rest_z) +
                     bytes(asset.rest_radii) + bytes(asset.strip_indices) + bytes(asset.fan_indices) +
                     bytes(asset.vertex_rows) + bytes(asset.row_muscles);
+  for (const auto* array : {&asset.rest_ux, &asset.rest_uy, &asset.rest_uz, &asset.rest_vx, &asset.rest_vy,
+                            &asset.rest_vz, &asset.rest_arc}) {
+    sum += bytes(*array);
+  }
   for (const CircleTable& table : asset.circle_tables) sum += bytes(table.cosines) + bytes(table.sines);
   return sum;
 }

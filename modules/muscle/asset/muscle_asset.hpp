@@ -86,6 +86,8 @@ struct MuscleAsset {
 
   // Rest state, in the order of the components' arrays.
   AlignedVector<float> rest_x, rest_y, rest_z;    // slots; m, in the rest bones' space
+  AlignedVector<float> rest_ux, rest_uy, rest_uz, rest_vx, rest_vy, rest_vz;  // slots
+  AlignedVector<float> rest_arc;                  // slots; m
   AlignedVector<float> rest_radii;                // m
 
   // Constant drawing data, indices into the asset's vertices, kRestartIndex after each strip and fan.

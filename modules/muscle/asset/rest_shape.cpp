@@ -240,6 +240,13 @@ Diagnostics shape_rest(std::span<const MuscleDescription> descriptions, std::spa
     }
   }
   measure_rest_volumes(asset, state);
+  asset.rest_ux = state.ux;
+  asset.rest_uy = state.uy;
+  asset.rest_uz = state.uz;
+  asset.rest_vx = state.vx;
+  asset.rest_vy = state.vy;
+  asset.rest_vz = state.vz;
+  asset.rest_arc = state.arc;
   for (std::uint32_t m = 0; m < asset.size(); ++m) {
     asset.muscles[m].rest_volume = state.volumes[m];
     if (wanted[m] && std::abs(double{state.volumes[m]} - *wanted[m]) > 1.0e-3 * *wanted[m]) {

@@ -15,6 +15,7 @@ struct CrossSections {
   AlignedVector<float> radii;  // m; by MuscleAsset::radius; may be negative
   AlignedVector<float> twist;  // by lane: rad, at the insertion, unwrapped, zero at rest
   std::uint32_t teleport_count = 0;  // of the bones when the twist was last followed
+  bool fresh = true;                 // not yet followed at all
 };
 
 std::size_t heap_bytes(const CrossSections& sections);

@@ -1,0 +1,23 @@
+#include "modules/muscle/muscle_systems.hpp"
+
+#include "engine/ecs/schedule.hpp"
+#include "modules/muscle/systems/1_drive/drive_action_lines.hpp"
+#include "modules/muscle/systems/2_shape/build_frames.hpp"
+#include "modules/muscle/systems/2_shape/find_tendons.hpp"
+#include "modules/muscle/systems/5_present/measure_muscles.hpp"
+#include "modules/muscle/systems/5_present/write_surfaces.hpp"
+
+namespace fascicle::muscle {
+
+void add_muscle_systems(ecs::Schedule& schedule) {
+  // 1 drive: bones move the lines.
+  schedule.add("drive_action_lines", drive_action_lines);
+  // 2 shape: lines carry the sections.
+  schedule.add("build_frames", build_frames);
+  schedule.add("find_tendons", find_tendons);
+  // 5 present: what others read.
+  schedule.add("measure_muscles", measure_muscles);
+  schedule.add("write_surfaces", write_surfaces);
+}
+
+}  // namespace fascicle::muscle

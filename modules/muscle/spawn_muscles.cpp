@@ -1,0 +1,215 @@
+#include "modules/muscle/spawn_muscles.hpp"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "engine/ecs/world.hpp"
+#include "engine/loop/cost_ledger.hpp"
+#include "engine/math/state_hash.hpp"
+#include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/components/action_lines.hpp"
+#include "modules/muscle/components/cross_sections.hpp"
+#include "modules/muscle/components/muscle_measures.hpp"
+#include "modules/muscle/components/musculature.hpp"
+#include "modules/muscle/components/tendons.hpp"
+#include "modules/muscle/systems/5_present/measure_muscles.hpp"
+#include "modules/muscle/systems/5_present/write_surfaces.hpp"
+#include "modules/muscle/systems/kernel_jobs.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+// The systems whose time the ledger knows.
+constexpr std::array<std::string_view, 5> kTimedSystems = {"drive_action_lines", "build_frames", "find_tendons",
+                                                           "measure_muscles", "write_surfaces"};
+
+ActionLines rest_lines(const MuscleAsset& asset) {
+  ActionLines lines;
+  lines.x = asset.rest_x;
+  lines.y = asset.rest_y;
+  lines.z = asset.rest_z;
+  lines.held.assign(asset.size(), 0);
+  lines.held_lanes.assign(asset.lane_count, 0);
+  return lines;
+}
+
+CrossSections rest_sections(const MuscleAsset& asset) {
+  CrossSections sections;
+  sections.ux = asset.rest_ux;
+  sections.uy = asset.rest_uy;
+  sections.uz = asset.rest_uz;
+  sections.vx = asset.rest_vx;
+  sections.vy = asset.rest_vy;
+  sections.vz = asset.rest_vz;
+  sections.arc = asset.rest_arc;
+  sections.radii = asset.rest_radii;
+  sections.twist.assign(asset.lane_count, 0.0f);
+  return sections;
+}
+
+Tendons rest_tendons(const MuscleAsset& asset, const CrossSections& sections) {
+  Tendons tendons;
+  for (std::size_t end = 0; end < 2; ++end) {
+    tendons.segment[end].assign(asset.lane_count, 0);
+    tendons.fraction[end].assign(asset.lane_count, 0.0f);
+    tendons.arc[end].assign(asset.lane_count, 0.0f);
+  }
+  mtu_kernels(SimdLevel::kPortable).find_tendons(find_tendons_job(asset, sections, tendons));
+  return tendons;
+}
+
+MuscleMeasures empty_measures(std::size_t count) {
+  MuscleMeasures measures;
+  for (std::vector<float>* values : {&measures.length, &measures.drawn_length, &measures.volume, &measures.mass,
+                                     &measures.pcsa, &measures.force}) {
+    values->assign(count, 0.0f);
+  }
+  measures.tendon_point.assign(count, glm::vec3(0.0f));
+  return measures;
+}
+
+MuscleSurfaces empty_surfaces(const MuscleAsset& asset) {
+  MuscleSurfaces surfaces;
+  surfaces.vertices.assign(asset.vertex_count, SurfaceVertex{});
+  surfaces.rows.assign(asset.row_count, SurfaceRow{});
+  for (std::uint32_t row = 0; row < asset.row_count; ++row) surfaces.rows[row].muscle = asset.row_muscles[row];
+  return surfaces;
+}
+
+template <class T>
+void hash_arrays(std::initializer_list<const AlignedVector<T>*> arrays, StateHash& hash) {
+  for (const AlignedVector<T>* array : arrays) hash.add(std::span<const T>(*array));
+}
+
+}  // namespace
+
+void prepare_muscles(ecs::World& world, const MuscleSettings& settings) {
+  world.set_resource(settings);
+  if (world.try_resource<CostLedger>() == nullptr) world.set_resource(CostLedger{});
+  for (const std::string_view system : kTimedSystems) world.resource<CostLedger>().add_system(system);
+}
+
+ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::shared_ptr<const MuscleAsset> asset) {
+  const ecs::Entity entity = world.create();
+  Musculature musculature;
+  musculature.character = character;
+  musculature.attached.assign(asset->size(), 1);
+  for (std::uint32_t i = 0; i < asset->size(); ++i) {
+    const ecs::Entity muscle = world.create();
+    world.add(muscle, Muscle{.musculature = entity, .index = i});
+    musculature.muscles.push_back(muscle);
+  }
+  musculature.asset = std::move(asset);
+
+  ActionLines lines = rest_lines(*musculature.asset);
+  CrossSections sections = rest_sections(*musculature.asset);
+  Tendons tendons = rest_tendons(*musculature.asset, sections);
+  MuscleMeasures measures = empty_measures(musculature.asset->size());
+  MuscleSurfaces surfaces = empty_surfaces(*musculature.asset);
+  const MtuKernels& kernels = mtu_kernels(SimdLevel::kPortable);
+  for (std::uint32_t i = 0; i < musculature.asset->size(); ++i) {
+    measure_muscle(musculature, lines, sections, tendons, kernels, i, measures);
+  }
+  kernels.write_surfaces(write_surfaces_job(sections_view(musculature, lines, sections, tendons), false, surfaces));
+  write_rows(*musculature.asset, sections, tendons, surfaces);
+
+  world.add(entity, std::move(musculature));
+  world.add(entity, std::move(lines));
+  world.add(entity, std::move(sections));
+  world.add(entity, std::move(tendons));
+  world.add(entity, std::move(measures));
+  world.add(entity, std::move(surfaces));
+  return entity;
+}
+
+void detach_muscle(ecs::World& world, ecs::Entity entity) {
+  const Muscle* found = world.try_get<Muscle>(entity);
+  if (found == nullptr) return;
+  const Muscle muscle = *found;
+  world.destroy(entity);
+  Musculature* musculature = world.try_get<Musculature>(muscle.musculature);
+  if (musculature == nullptr) return;
+  musculature->muscles[muscle.index] = ecs::kNoEntity;
+  musculature->attached[muscle.index] = 0;
+  const ActionLines& lines = world.get<ActionLines>(muscle.musculature);
+  const CrossSections& sections = world.get<CrossSections>(muscle.musculature);
+  const Tendons& tendons = world.get<Tendons>(muscle.musculature);
+  const MtuKernels& kernels = mtu_kernels(SimdLevel::kPortable);
+  const SectionsView view = single_muscle(sections_view(*musculature, lines, sections, tendons), muscle.index);
+  kernels.write_surfaces(write_surfaces_job(view, false, world.get<MuscleSurfaces>(muscle.musculature)));
+  measure_muscle(*musculature, lines, sections, tendons, kernels, muscle.index,
+                 world.get<MuscleMeasures>(muscle.musculature));
+}
+
+void despawn_musculature(ecs::World& world, ecs::Entity entity) {
+  const Musculature* musculature = world.try_get<Musculature>(entity);
+  if (musculature == nullptr) return;
+  const std::vector<ecs::Entity> muscles = musculature->muscles;
+  for (const ecs::Entity muscle : muscles) {
+    if (world.alive(muscle)) world.destroy(muscle);
+  }
+  if (CostLedger* ledger = world.try_resource<CostLedger>()) ledger->remove_owner(entity);
+  world.destroy(entity);
+}
+
+ecs::Entity muscle_entity(const ecs::World& world, ecs::Entity musculature, std::uint32_t index) {
+  const Musculature* found = world.try_get<Musculature>(musculature);
+  return found != nullptr && index < found->muscles.size() ? found->muscles[index] : ecs::kNoEntity;
+}
+
+ecs::Entity muscle_entity(const ecs::World& world, ecs::Entity musculature, std::string_view name) {
+  const Musculature* found = world.try_get<Musculature>(musculature);
+  if (found == nullptr) return ecs::kNoEntity;
+  const std::int32_t index = find_muscle(*found->asset, name);
+  return index < 0 ? ecs::kNoEntity : found->muscles[static_cast<std::size_t>(index)];
+}
+
+void list_costs(ecs::World& world, ecs::Entity musculature, std::string label) {
+  const Musculature* found = world.try_get<Musculature>(musculature);
+  CostLedger* ledger = world.try_resource<CostLedger>();
+  if (found == nullptr || ledger == nullptr) return;
+  std::vector<std::string> names;
+  for (const MuscleLayout& muscle : found->asset->muscles) names.push_back(muscle.name);
+  ledger->add_owner(musculature, std::move(label), names);
+}
+
+MuscleSurfaceView surface_of(const ecs::World& world, ecs::Entity entity) {
+  const Muscle* muscle = world.try_get<Muscle>(entity);
+  if (muscle == nullptr) return {};
+  const Musculature* musculature = world.try_get<Musculature>(muscle->musculature);
+  const MuscleSurfaces* surfaces = world.try_get<MuscleSurfaces>(muscle->musculature);
+  if (musculature == nullptr || surfaces == nullptr) return {};
+  return surface_of(*musculature->asset, *surfaces, muscle->index);
+}
+
+float length_of(const ecs::World& world, ecs::Entity entity) {
+  const Muscle* muscle = world.try_get<Muscle>(entity);
+  const MuscleMeasures* measures = muscle == nullptr ? nullptr : world.try_get<MuscleMeasures>(muscle->musculature);
+  return measures == nullptr ? 0.0f : measures->length[muscle->index];
+}
+
+std::uint64_t hash_state(const ecs::World& world) {
+  StateHash hash;
+  world
+      .view<const Musculature, const ActionLines, const CrossSections, const Tendons, const MuscleMeasures,
+            const MuscleSurfaces>()
+      .each([&](const Musculature& musculature, const ActionLines& lines, const CrossSections& sections,
+                const Tendons& tendons, const MuscleMeasures& measures, const MuscleSurfaces& surfaces) {
+        hash.add(std::span<const std::uint8_t>(musculature.attached));
+        hash_arrays<float>({&lines.x, &lines.y, &lines.z, &sections.ux, &sections.uy, &sections.uz, &sections.vx,
+                            &sections.vy, &sections.vz, &sections.arc, &sections.twist, &sections.radii},
+                           hash);
+        for (std::size_t end = 0; end < 2; ++end) {
+          hash_arrays<std::int32_t>({&tendons.segment[end]}, hash);
+          hash_arrays<float>({&tendons.fraction[end]}, hash);
+        }
+        hash.add(std::span<const float>(measures.length));
+        hash.add(std::span<const float>(measures.volume));
+        hash.add(std::span<const SurfaceVertex>(surfaces.vertices));
+        hash.add(std::span<const SurfaceRow>(surfaces.rows));
+      });
+  return hash.value();
+}
+
+}  // namespace fascicle::muscle
