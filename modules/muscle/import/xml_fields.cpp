@@ -40,7 +40,7 @@ std::string XmlFields::path(pugi::xml_node node) {
     if (std::string_view(node.name()) == "objects" || std::string_view(node.name()) == "OpenSimDocument") continue;
     std::string step = node.name();
     // A model's or a set's own name says nothing.
-    if (const std::string name = name_of(node); !name.empty() && node.parent().parent().parent()) step += "[" + name + "]";
+    if (const std::string name = name_of(node); !name.empty() && node.parent().parent().parent().parent()) step += "[" + name + "]";
     path = path.empty() ? step : step + "/" + path;
   }
   return path;
