@@ -85,7 +85,7 @@ void read_pennation(JsonObject& object, float& pennation) {
   if (!node.exists() || !node.read(value, object.diagnostics(), at_least(0))) return;
   if (value >= std::numbers::pi / 2) {
     std::string remedy = "give radians, at least 0 and less than pi/2 = 1.5708";
-    if (value < 90.0) {
+    if (value > std::numbers::pi && value < 90.0) {
       remedy += fmt::format("; {} degrees are {:.4g} rad", value, value * std::numbers::pi / 180.0);
     }
     node.error(object.diagnostics(), fmt::format("the pennation angle {} is a right angle or more", value),
