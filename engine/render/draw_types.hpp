@@ -47,7 +47,7 @@ enum StripItemFlags : std::uint32_t {
 
 // Per item of a strip surface. Written at any time; lasts until written again.
 struct StripItem {
-  std::uint32_t belly_colour = 0xff2a2fa8u;   // sRGB, bytes R, G, B, A from the lowest (see pack_colour)
+  std::uint32_t belly_colour = 0xff282a98u;   // sRGB, bytes R, G, B, A from the lowest (see pack_colour)
   std::uint32_t tendon_colour = 0xffc4dbe8u;
   float activation = 0.0f;                    // 0..1, warms and brightens the belly
   std::uint32_t flags = 0;                    // StripItemFlags

@@ -158,7 +158,7 @@ void lay_out_item(const OverlayItem& item, int index, int value_columns, Overlay
   if (item.warning) ImGui::PopStyleColor();
   for (int column = 0; column < value_columns; ++column) {
     ImGui::TableNextColumn();
-    ImGui::Text("%9.2f", static_cast<double>(item.values[column]));
+    ImGui::Text("%10.2f", static_cast<double>(item.values[column]));
   }
   ImGui::PopID();
 }
@@ -173,7 +173,7 @@ void lay_out_items(const OverlayModel& model, OverlayMemory& memory, OverlayActi
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(model.item_heading, ImGuiTableColumnFlags_WidthStretch);
   for (int column = 0; column < value_columns; ++column) {
-    ImGui::TableSetupColumn(model.value_headings[column], ImGuiTableColumnFlags_WidthFixed, 66.0f);
+    ImGui::TableSetupColumn(model.value_headings[column], ImGuiTableColumnFlags_WidthFixed, 76.0f);
   }
   ImGui::TableHeadersRow();
   const std::string_view filter(memory.filter.data());
@@ -233,7 +233,7 @@ OverlayActions lay_out_overlay(const OverlayModel& model, float width, float hei
     if (!model.systems.empty() && ImGui::CollapsingHeader("Time per system, ms", ImGuiTreeNodeFlags_DefaultOpen)) {
       lay_out_timings("##systems", memory.history.systems);
     }
-    if (!model.gpu.empty() && ImGui::CollapsingHeader("Graphics card, ms")) {
+    if (!model.gpu.empty() && ImGui::CollapsingHeader("Graphics card, ms", ImGuiTreeNodeFlags_DefaultOpen)) {
       lay_out_timings("##gpu", memory.history.gpu);
     }
     if (!model.switches.empty() && ImGui::CollapsingHeader("Show", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -244,7 +244,7 @@ OverlayActions lay_out_overlay(const OverlayModel& model, float width, float hei
   ImGui::End();
 
   if (!model.items.empty()) {
-    constexpr float kItemWidth = 330.0f;
+    constexpr float kItemWidth = 380.0f;
     ImGui::SetNextWindowPos(ImVec2(width - kItemWidth - kMargin, kMargin), ImGuiCond_Always);
     ImGui::SetNextWindowSize(ImVec2(kItemWidth, std::min(0.62f * height, tallest)), ImGuiCond_Always);
     if (ImGui::Begin("##item list", nullptr, kPanel)) lay_out_items(model, memory, actions);

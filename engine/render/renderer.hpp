@@ -46,16 +46,16 @@ struct DrawView {
   bool rings = false;          // outlines of the strip surfaces' rows
   bool meshes = true;
   bool skins = true;
-  float skin_opacity = 0.35f;  // 1: opaque; 0: not drawn
+  float skin_opacity = 0.3f;  // 1: opaque; 0: not drawn
   bool lines = true;
   float lines_through = 0.35f;  // opacity of lines where something is in front of them
   float line_width = 1.5f;     // pixels
   bool ground = true;
   bool shadow = true;
   bool back_faces = false;     // paints faces that are clockwise on screen magenta: shows inverted surfaces
-  glm::vec3 background{0.12f, 0.135f, 0.155f};
+  glm::vec3 background{0.085f, 0.095f, 0.11f};
   glm::vec3 mesh_colour{0.80f, 0.74f, 0.62f};
-  glm::vec3 skin_colour{0.82f, 0.55f, 0.44f};
+  glm::vec3 skin_colour{0.68f, 0.42f, 0.32f};
 };
 
 struct RenderStats {

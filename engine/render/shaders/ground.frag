@@ -30,7 +30,7 @@ void main() {
   float from_target = distance(position.xz, frame.target.xz) / frame.background.w;
   float seen = 1.0 - smoothstep(0.25, 1.0, from_target);
   vec3 floor_colour = frame.background.rgb * 1.35 + 0.01;
-  float line = max(0.45 * grid(position.xz, 0.1, 0.2), grid(position.xz, 1.0, 0.6));
+  float line = max(0.25 * grid(position.xz, 0.1, 0.2), grid(position.xz, 1.0, 0.6));
   vec3 shaded = mix(floor_colour, floor_colour * 1.9 + 0.02, line);
   shaded *= mix(0.42, 1.0, lit());
   colour = vec4(mix(frame.background.rgb, shaded, seen), 1.0);

@@ -49,7 +49,7 @@ void main() {
   belly_colour = unpack_srgb(item.belly).rgb;
   tendon_colour = unpack_srgb(item.tendon).rgb;
   float activation = clamp(item.activation, 0.0, 1.0);
-  belly_colour = mix(belly_colour, min(belly_colour * 1.9 + vec3(0.06, 0.0, 0.0), 1.0), activation);
+  belly_colour = mix(belly_colour, min(belly_colour * 1.5 + vec3(0.05, 0.0, 0.0), 1.0), activation);
   if ((item.flags & kHighlighted) != 0u) {
     belly_colour = mix(belly_colour, vec3(0.95, 0.62, 0.08), 0.6);
     tendon_colour = mix(tendon_colour, vec3(1.0, 0.80, 0.30), 0.6);

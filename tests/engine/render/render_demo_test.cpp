@@ -35,7 +35,7 @@ class RenderDemo : public RenderFixture {
       const float arch = std::sin(3.14159265f * s);
       path.push_back(glm::mix(from, to, s) + arch * bulge);
       const float belly = std::clamp((s - 0.04f) / (0.96f - tendon), 0.0f, 1.0f);
-      radii.push_back(0.005f + radius * std::pow(std::sin(3.14159265f * belly), 1.4f));
+      radii.push_back(0.005f + radius * std::pow(std::max(std::sin(3.14159265f * belly), 0.0f), 1.4f));
       coordinates.push_back(std::min(s - 0.08f, 1.0f - tendon - s) * length);
     }
     append_tube(path, radii, coordinates, 16, muscles_);
@@ -121,6 +121,19 @@ class RenderDemo : public RenderFixture {
     pack_vertices(skin_mesh_.positions, normals, renderer_->skin_vertices(skin_));
   }
 
+  // What an action line would look like, for one frame.
+  void add_lines() {
+    for (int i = 0; i < 7; ++i) {
+      const float angle = 0.9f * static_cast<float>(i);
+      const glm::vec3 out(std::cos(angle), 0.0f, std::sin(angle));
+      const glm::vec3 from = glm::vec3(0, 0.95f, 0) + 0.05f * out, to = glm::vec3(0, 0.46f, 0) + 0.03f * out;
+      const glm::vec3 middle = 0.5f * (from + to) + 0.035f * out;
+      renderer_->add_line(from, middle, pack_colour({1.0f, 0.9f, 0.2f, 1.0f}));
+      renderer_->add_line(middle, to, pack_colour({1.0f, 0.9f, 0.2f, 1.0f}));
+      renderer_->add_point(middle, pack_colour({0.3f, 0.9f, 1.0f, 1.0f}), 7.0f);
+    }
+  }
+
   void save(const Image& image, const char* name) {
     const auto written = write_png(image, std::filesystem::path(FASCICLE_PICTURE_DIR) / name);
     ASSERT_TRUE(written.ok()) << to_text(written.diagnostics());
@@ -167,17 +180,6 @@ TEST_F(RenderDemo, CloseUpWithRingsLinesAndOverlay) {
 
   view_.skins = false;
   view_.rings = true;
-  for (int i = 0; i < 7; ++i) {
-    const float angle = 0.9f * static_cast<float>(i);
-    const glm::vec3 out(std::cos(angle), 0.0f, std::sin(angle));
-    const glm::vec3 from = glm::vec3(0, 0.95f, 0) + 0.05f * out, to = glm::vec3(0, 0.46f, 0) + 0.03f * out;
-    const glm::vec3 middle = 0.5f * (from + to) + 0.035f * out;
-    renderer_->add_line(from, middle, pack_colour({1.0f, 0.9f, 0.2f, 1.0f}));
-    renderer_->add_line(middle, to, pack_colour({1.0f, 0.9f, 0.2f, 1.0f}));
-    renderer_->add_point(middle, pack_colour({0.3f, 0.9f, 1.0f, 1.0f}), 7.0f);
-  }
-  renderer_->draw(view_);
-
   auto overlay = Overlay::create();
   ASSERT_TRUE(overlay.ok());
   const OverlayTiming systems[] = {{"advance_clips", 0.02f}, {"compose_bones", 0.11f}, {"place_sections", 0.42f}};
@@ -189,11 +191,15 @@ TEST_F(RenderDemo, CloseUpWithRingsLinesAndOverlay) {
                                {"sartorius_r", {520.0f, 120.0f, 156.0f}, false, false, true}};
   const std::string errors[] = {"walker.character.json:3:5: /muscles/0/origin/bone: unknown bone 'tibea_r'; write "
                                 "'tibia_r'"};
+  std::vector<OverlayTiming> gpu;
+  for (const GpuTime& time : renderer_->gpu_times()) {
+    gpu.push_back({time.name, static_cast<float>(time.milliseconds)});
+    RecordProperty(time.name, std::to_string(time.milliseconds));
+  }
   OverlayModel model;
   model.title = "walker";
   model.subtitle = headless_->info().renderer;
   model.systems = systems;
-  model.gpu = {};
   model.switches = switches;
   model.sliders = sliders;
   model.item_heading = "muscle";
@@ -205,11 +211,10 @@ TEST_F(RenderDemo, CloseUpWithRingsLinesAndOverlay) {
   for (int frame = 0; frame < 150; ++frame) {
     model.frame_milliseconds = 9.0f + 5.0f * std::sin(0.2f * static_cast<float>(frame));
     model.frame = static_cast<std::uint64_t>(frame);
-    if (frame % 30 == 29) {
-      renderer_->draw(view_);
-    }
     (*overlay)->draw(model, InputState{}, 1.0f / 60.0f, *renderer_);
   }
+  model.gpu = gpu;
+  add_lines();
   renderer_->draw(view_);
   (*overlay)->draw(model, InputState{}, 1.0f / 60.0f, *renderer_);
   save(renderer_->read_image(), "overlay.png");

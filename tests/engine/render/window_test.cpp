@@ -7,6 +7,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -60,7 +61,7 @@ TEST(Window, WithoutADisplayItSaysWhatToDo) {
 TEST(Window, DrawsAndPresentsThroughTheSameRenderer) {
   const VirtualDisplay display;
   if (!display.number()) GTEST_SKIP() << "Xvfb is not installed";
-  setenv("DISPLAY", (":" + std::to_string(*display.number())).c_str(), 1);
+  setenv("DISPLAY", fmt::format(":{}", *display.number()).c_str(), 1);
   WindowOptions window_options;
   window_options.width = 320;
   window_options.height = 200;
