@@ -15,6 +15,10 @@ constexpr std::size_t kMaxNameLength = 128;  // longer names are no slips, and t
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
+}
+
 // Optimal string alignment distance in half edits: a change of case costs 1, every other edit 2.
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
@@ -43,7 +47,8 @@ std::string_view find_closest(std::string_view name, std::span<const Name> candi
     const int distance = edit_distance(name, candidate);
     // A third of the letters may be wrong, at least one edit: more is another name.
     const int allowed = std::max(2, 2 * static_cast<int>(std::max(name.size(), candidate.size()) / 3));
-    if (distance <= allowed && distance < best_distance && distance < 2 * static_cast<int>(candidate.size())) {
+    const bool near = distance <= allowed || equal_but_for_case(name, candidate);
+    if (near && distance < best_distance && distance < 2 * static_cast<int>(candidate.size())) {
       best = candidate;
       best_distance = distance;
     }
