@@ -51,6 +51,7 @@ struct MuscleDescription {
   std::uint32_t section_vertices = 8;       // |C|, even, >= 6
   std::uint32_t longitudinal_subdivision = 1;  // LSS, 0..6
   std::string mesh;                 // name of the anatomical mesh, empty: none (used by the fit)
+  std::vector<std::string> groups;  // names of the groups it belongs to ("knee_ext_r"), for a game to choose by
   Diagnostic where;                 // file, line, column and path to quote in errors; empty for muscles made in code
 };
 

@@ -101,6 +101,9 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
   std::string schema;
   object.optional("$schema", schema);
   object.require("version");  // its value is migrate's business
+  std::string credit;  // kept in the file for those who read it
+  object.optional("source", credit);
+  object.optional("licence", credit);
   file.name = read_name(object, "name", true).text;
   if (const JsonNode node = object.require("skeleton"); node.exists()) read_skeleton(node, file, context);
   if (const JsonNode node = object.optional("skin"); node.exists()) read_skin(node, file, context);

@@ -171,6 +171,9 @@ MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context) 
   if (const JsonNode tendon = object.optional("tendon"); tendon.exists()) read_tendon(tendon, values, context);
   read_level(object, entry.section_vertices, entry.longitudinal_subdivision);
   entry.mesh = read_name(object, "mesh", false);
+  if (const JsonNode groups = object.optional("groups"); groups.exists()) {
+    groups.read(values.groups, context.diagnostics);
+  }
   finish_object(object, "muscle", context);
   // A wrong figure has its own error; what follows from it would only repeat it.
   if (context.diagnostics.errors.size() == errors_before) check_thickness(values, node, context.diagnostics);

@@ -142,6 +142,7 @@ void add_mirror_image(const Resolver& resolver, const MuscleEntry& entry, std::s
   ResolvedMuscle muscle;
   muscle.source = &resolver.file;
   muscle.description = describe(resolver, entry, *name, mirrored, false);
+  for (std::string& group : muscle.description.groups) group = mirror_name(group, rule.names).value_or(group);
   muscle.mirror_axis = rule.axis;
   if (entry.mesh.given()) {
     muscle.mirrored_mesh = entry.mesh;
