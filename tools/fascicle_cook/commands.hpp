@@ -1,0 +1,24 @@
+// The subcommands of fascicle-cook. Each adds itself to the program and leaves the function that runs it; that function
+// returns the exit status.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace fascicle::cook {
+
+inline constexpr int kFine = 0;
+inline constexpr int kErrors = 1;
+inline constexpr int kUsage = 2;
+
+using Command = std::function<int()>;
+
+// import-osim MODEL.osim [--out FILE] [--geometry DIR]: a character file from an OpenSim model.
+void add_import_osim(CLI::App& program, Command& chosen);
+// counts CHARACTER: sections and vertices at several levels of detail.
+void add_counts(CLI::App& program, Command& chosen);
+
+}  // namespace fascicle::cook

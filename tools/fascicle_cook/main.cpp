@@ -1,0 +1,23 @@
+// fascicle-cook: makes content from other sources, and tells what content amounts to.
+//
+// Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage.
+
+#include <CLI/CLI.hpp>
+
+#include "tools/fascicle_cook/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace fascicle;
+  CLI::App program("Makes content for Fascicle from other sources, and tells what content amounts to.", "fascicle-cook");
+  program.require_subcommand(1);
+  program.footer("Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage.");
+  cook::Command chosen;
+  cook::add_import_osim(program, chosen);
+  cook::add_counts(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? cook::kFine : cook::kUsage;
+  }
+  return chosen();
+}
