@@ -1,7 +1,8 @@
 # Makes a C++ source that holds the shader files as text.
 # cmake -DOUTPUT=file.cpp -DFOLDER=.../shaders -DFILES="a.vert,b.frag" -P embed_shaders.cmake
 string(REPLACE "," ";" files "${FILES}")
-set(code "// Made from the files in engine/render/shaders; don't edit.\n#include \"engine/render/shader_program.hpp\"\n\n")
+set(code "// Made from the files in engine/render/shaders; don't edit.\n")
+string(APPEND code "#include \"engine/render/shader_program.hpp\"\n\n")
 string(APPEND code "namespace fascicle {\n\nstd::span<const ShaderFile> shader_files() {\n")
 string(APPEND code "  static constexpr ShaderFile kFiles[] = {\n")
 foreach(file IN LISTS files)

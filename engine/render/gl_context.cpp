@@ -17,7 +17,7 @@ void GLAPIENTRY on_debug_message(GLenum /*source*/, GLenum type, GLuint id, GLen
                                  const GLchar* message, const void* user) {
   if (severity == GL_DEBUG_SEVERITY_NOTIFICATION) return;
   const bool is_error = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
-  const std::string text(message, length > 0 ? static_cast<std::size_t>(length) : std::char_traits<char>::length(message));
+  const std::string text = length > 0 ? std::string(message, static_cast<std::size_t>(length)) : std::string(message);
   auto* log = static_cast<GlDebugLog*>(const_cast<void*>(user));
   log->record(is_error, fmt::format("GL {}: {}", id, text));
 }

@@ -83,14 +83,14 @@ void StepClock::guard_slot(std::uint32_t slot) {
   fences_[slot] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
-StepBuffer::~StepBuffer() { free_buffer(name_, StepClock::kSlots * slot_bytes(), memory_); }
+StepBuffer::~StepBuffer() { free_buffer(name_, total_bytes(), memory_); }
 
 std::uint32_t StepBuffer::allocate(std::uint32_t count) {
   if (const auto first = ranges_.allocate(count)) return *first;
   const std::size_t old_slot = slot_bytes();
   ranges_.grow(grown_capacity(ranges_.capacity(), count));
   const GLbitfield flags = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-  const GLuint grown = make_buffer(StepClock::kSlots * slot_bytes(), flags, memory_);
+  const GLuint grown = make_buffer(total_bytes(), flags, memory_);
   for (std::uint32_t slot = 0; slot < StepClock::kSlots && name_ != 0; ++slot) {
     glCopyNamedBufferSubData(name_, grown, static_cast<GLintptr>(slot * old_slot), slot_offset(slot),
                              static_cast<GLsizeiptr>(old_slot));
@@ -98,7 +98,7 @@ std::uint32_t StepBuffer::allocate(std::uint32_t count) {
   glFinish();  // the copies must not land after what threads write next
   free_buffer(name_, StepClock::kSlots * old_slot, memory_);
   name_ = grown;
-  mapped_ = static_cast<std::byte*>(glMapNamedBufferRange(name_, 0, static_cast<GLsizeiptr>(StepClock::kSlots * slot_bytes()), flags));
+  mapped_ = static_cast<std::byte*>(glMapNamedBufferRange(name_, 0, static_cast<GLsizeiptr>(total_bytes()), flags));
   assert(mapped_ != nullptr);
   return *ranges_.allocate(count);
 }

@@ -73,6 +73,7 @@ class StepBuffer {
 
   GLuint name() const { return name_; }
   std::size_t slot_bytes() const { return static_cast<std::size_t>(ranges_.capacity()) * stride_; }
+  std::size_t total_bytes() const { return StepClock::kSlots * slot_bytes(); }
   GLintptr slot_offset(std::uint32_t slot) const { return static_cast<GLintptr>(slot * slot_bytes()); }
   std::uint32_t stride() const { return stride_; }
   // Binds a slot as a vertex buffer, or as a shader storage block.

@@ -78,8 +78,8 @@ inline int count_back_faces(const Image& image) {
   int count = 0;
   for (int y = 1; y + 1 < image.height; ++y) {
     for (int x = 1; x + 1 < image.width; ++x) {
-      count += is_magenta(image.pixel(x, y)) && is_magenta(image.pixel(x - 1, y)) && is_magenta(image.pixel(x + 1, y)) &&
-               is_magenta(image.pixel(x, y - 1)) && is_magenta(image.pixel(x, y + 1));
+      const auto at = [&](int dx, int dy) { return is_magenta(image.pixel(x + dx, y + dy)); };
+      count += at(0, 0) && at(-1, 0) && at(1, 0) && at(0, -1) && at(0, 1);
     }
   }
   return count;

@@ -78,7 +78,7 @@ TEST(WritePng, RoundTripIsExactAndReplacesAtomically) {
 TEST(ContactSheet, PicturesStandInReadingOrder) {
   EXPECT_TRUE(contact_sheet({}, 3).rgb.empty());
   std::vector<Image> images;
-  for (std::uint8_t i = 1; i <= 3; ++i) images.push_back({2, 2, std::vector<std::uint8_t>(12, static_cast<std::uint8_t>(50 * i))});
+  for (const std::uint8_t grey : {50, 100, 150}) images.push_back({2, 2, std::vector<std::uint8_t>(12, grey)});
   const Image sheet = contact_sheet(images, 2, 1);
   EXPECT_EQ(sheet.width, 5);
   EXPECT_EQ(sheet.height, 5);

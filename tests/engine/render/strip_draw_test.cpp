@@ -17,7 +17,9 @@ class StripDraw : public RenderFixture {
     }
     std::copy(tube.rows.begin(), tube.rows.end(), renderer_->strip_rows(strips).begin());
   }
-  StripHandle add(const TubeSurface& tube) { return renderer_->add_strips(renderer_->add_strip_topology(tube.topology)); }
+  StripHandle add(const TubeSurface& tube) {
+    return renderer_->add_strips(renderer_->add_strip_topology(tube.topology));
+  }
   Image draw(const DrawView& view) {
     renderer_->draw(view);
     return renderer_->read_image();
@@ -201,7 +203,8 @@ TEST_F(StripDraw, ManyInstancesGoOutInTwoCallsWithoutReallocation) {
   std::vector<StripHandle> instances;
   for (int i = 0; i < 200; ++i) instances.push_back(renderer_->add_strips(topology));
   const auto offset = [](int i) {
-    return glm::vec3(0.045f * static_cast<float>(i % 20 - 10) + 0.02f, 0.045f * static_cast<float>(i / 20 - 5) + 0.02f, 0.0f);
+    const auto column = static_cast<float>(i % 20 - 10), row = static_cast<float>(i / 20 - 5);
+    return glm::vec3(0.045f * column + 0.02f, 0.045f * row + 0.02f, 0.0f);
   };
   std::uint64_t allocations = 0;
   for (int step = 0; step < 12; ++step) {
@@ -217,14 +220,15 @@ TEST_F(StripDraw, ManyInstancesGoOutInTwoCallsWithoutReallocation) {
   const Image image = renderer_->read_image();
   for (int i = 0; i < 200; ++i) {
     const glm::vec3 at = offset(i) / kMetresPerPixel;
-    EXPECT_FALSE(is_background(image.pixel(100 + static_cast<int>(std::floor(at.x)), 50 - static_cast<int>(std::floor(at.y)))))
-        << i;
+    const int x = 100 + static_cast<int>(std::floor(at.x)), y = 50 - static_cast<int>(std::floor(at.y));
+    EXPECT_FALSE(is_background(image.pixel(x, y))) << i;
   }
 }
 
 TEST_F(StripDraw, AddingAndRemovingLeavesTheOthersAlone) {
   make_renderer(test_options());
-  const TubeSurface left_tube = make_cylinder(0.2f, 0.1f, 24, 10.0f), right_tube = make_cylinder(0.1f, 0.1f, 300, 10.0f, 40);
+  const TubeSurface left_tube = make_cylinder(0.2f, 0.1f, 24, 10.0f);
+  const TubeSurface right_tube = make_cylinder(0.1f, 0.1f, 300, 10.0f, 40);
   const StripHandle left = add(left_tube);
   renderer_->begin_step();
   write(left, left_tube, {-0.2f, 0.0f, 0.0f});
