@@ -40,7 +40,7 @@ class LiveReload : public testing::Test {
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("fascicle_live_reload_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    fs::create_directories(folder_ / "characters");
     const fs::path content = fs::path(FASCICLE_SOURCE_DIR) / "content";
     fs::copy(content / "scenes", folder_ / "scenes", fs::copy_options::recursive);
     fs::copy(content / "schema", folder_ / "schema", fs::copy_options::recursive);
