@@ -7,6 +7,10 @@
 
 namespace fascicle {
 
+namespace {
+constexpr double kMostSteps = 1e9;
+}  // namespace
+
 FrameLoop::FrameLoop(float step_seconds, int max_catch_up_steps) : max_catch_up_steps_(max_catch_up_steps) {
   assert(step_seconds > 0 && std::isfinite(step_seconds));
   assert(max_catch_up_steps >= 1);
@@ -22,17 +26,17 @@ int FrameLoop::begin_frame(double wall_seconds) {
   if (time_.paused) return std::min(requested, max_catch_up_steps_);
 
   const double step = time_.step;
-  due_ += wall_seconds * static_cast<double>(time_.time_scale);
+  // Beyond kMostSteps a wall time means "for ever", and the arithmetic would no longer be exact.
+  due_ = std::min(due_ + wall_seconds * static_cast<double>(time_.time_scale), kMostSteps * step);
   const double whole = std::floor(due_ / step);
   due_ = std::max(0.0, due_ - whole * step);
-  const double dropped = std::max(0.0, whole - max_catch_up_steps_);
-  if (dropped > 0) {
+  const double steps = std::min(whole, static_cast<double>(max_catch_up_steps_));
+  if (whole > steps) {
     ++clamped_frames_;
-    // A count, not a time: beyond 2^53 it means "for ever" and need not be exact.
-    clamped_steps_ += static_cast<std::uint64_t>(std::min(dropped, 0x1p53));
+    clamped_steps_ += static_cast<std::uint64_t>(whole - steps);
   }
   time_.alpha = std::clamp(static_cast<float>(due_ / step), 0.0F, 1.0F);
-  return static_cast<int>(whole - dropped);
+  return static_cast<int>(steps);
 }
 
 const FrameTime& FrameLoop::advance() {

@@ -65,22 +65,22 @@ std::string FrameStats::to_csv() const {
   std::string text = "kind,name,owner,item,frames,min_ms,mean_ms,p50_ms,p95_ms,p99_ms,max_ms,count,bytes,value\n";
   const auto out = std::back_inserter(text);
   for (const auto& [name, value] : notes_) {
-    fmt::format_to(out, "note,{},,,,,,,,,,,,{}\n", quote_csv(name), quote_csv(value));
+    fmt::format_to(out, "note,{},,,,,,,,,,,,{}\n", quoted_csv(name), quoted_csv(value));
   }
   fmt::format_to(out, "counter,clamped_steps,,,,,,,,,,{},,\n", clamped_steps_);
   fmt::format_to(out, "counter,warm_up_frames,,,,,,,,,,{},,\n",
                  std::min<std::uint64_t>(begun_frames_, settings_.warm_up_frames));
   for (const RowSummary& row : summaries()) {
     fmt::format_to(out, "{},{},,,{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},,,\n", to_text(row.kind),
-                   quote_csv(row.name), row.frames, row.min_ms, row.mean_ms, row.p50_ms, row.p95_ms, row.p99_ms,
+                   quoted_csv(row.name), row.frames, row.min_ms, row.mean_ms, row.p50_ms, row.p95_ms, row.p99_ms,
                    row.max_ms);
   }
   for (const ItemCost& row : item_rows_) {
-    fmt::format_to(out, "item,{},{},{},{},{:.6f},{:.6f},,,,{:.6f},,,\n", quote_csv(row.system), quote_csv(row.owner),
-                   quote_csv(row.item), row.frames, row.min_ms, row.mean_ms, row.max_ms);
+    fmt::format_to(out, "item,{},{},{},{},{:.6f},{:.6f},,,,{:.6f},,,\n", quoted_csv(row.system), quoted_csv(row.owner),
+                   quoted_csv(row.item), row.frames, row.min_ms, row.mean_ms, row.max_ms);
   }
   for (const ecs::ComponentMemory& component : memory_) {
-    fmt::format_to(out, "memory,{},,,,,,,,,,{},{},\n", quote_csv(component.name), component.count, component.bytes);
+    fmt::format_to(out, "memory,{},,,,,,,,,,{},{},\n", quoted_csv(component.name), component.count, component.bytes);
   }
   return text;
 }
@@ -110,8 +110,8 @@ std::string FrameStats::to_json() const {
     fmt::format_to(out,
                    "{}\n    {{\"system\": {}, \"owner\": {}, \"item\": {}, \"frames\": {}, \"min_ms\": {:.6f}, "
                    "\"mean_ms\": {:.6f}, \"max_ms\": {:.6f}}}",
-                   std::exchange(separator, ","), quoted_json(row.system), quoted_json(row.owner), quoted_json(row.item),
-                   row.frames, row.min_ms, row.mean_ms, row.max_ms);
+                   std::exchange(separator, ","), quoted_json(row.system), quoted_json(row.owner),
+                   quoted_json(row.item), row.frames, row.min_ms, row.mean_ms, row.max_ms);
   }
   text += "\n  ],\n  \"memory\": [";
   separator = "";

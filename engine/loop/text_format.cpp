@@ -53,7 +53,7 @@ std::string quoted_json(std::string_view text) {
   return result + '"';
 }
 
-std::string quote_csv(std::string_view text) {
+std::string quoted_csv(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string result = "\"";
   for (const char c : text) {

@@ -10,6 +10,6 @@ namespace fascicle {
 std::string quoted_json(std::string_view text);
 
 // A CSV field (RFC 4180): quoted where it holds a comma, a quote or a line break.
-std::string quote_csv(std::string_view text);
+std::string quoted_csv(std::string_view text);
 
 }  // namespace fascicle

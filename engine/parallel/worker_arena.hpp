@@ -9,7 +9,8 @@ namespace fascicle::parallel {
 
 class WorkerArena {
  public:
-  // `workers` at least 1; 0 asks for one per core. More than the cores is allowed (tests of determinism do it).
+  // `workers` at least 1; 0 asks for one per core. More than the cores is allowed (tests of determinism do it). Starts
+  // the threads and waits until they are there, so that no frame has to.
   explicit WorkerArena(int workers);
   ~WorkerArena();
   WorkerArena(const WorkerArena&) = delete;
@@ -29,6 +30,7 @@ class WorkerArena {
  private:
   struct Threads;
 
+  void start_threads();
   void execute_erased(void (*function)(void*), void* context);
 
   int workers_;

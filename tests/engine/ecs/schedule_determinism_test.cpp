@@ -51,7 +51,8 @@ void sum_energy(View<const Velocity> view, Resource<Energy> energy) {
   energy->total = parallel::ordered_sum(
       view.candidates(), kGrain, std::span<float>(energy->partial), [&](std::size_t begin, std::size_t end) {
         float sum = 0;
-        for (std::size_t i = begin; i < end; ++i) view.visit(i, [&](const Velocity& v) { sum += v.x * v.x + v.y * v.y; });
+        const auto add = [&](const Velocity& v) { sum += v.x * v.x + v.y * v.y; };
+        for (std::size_t i = begin; i < end; ++i) view.visit(i, add);
         return sum;
       });
 }

@@ -23,7 +23,7 @@ std::string message_of_run(Schedule& schedule, World& world, int workers) {
   } catch (const std::exception& error) {
     return error.what();
   }
-  return "";
+  return {};
 }
 
 TEST(ScheduleError, SystemsThatWaitAndLaterStagesAreLeftOut) {
