@@ -102,6 +102,10 @@ std::optional<fs::path> ContentSources::resolve(const std::string& reference, co
                suggest_file(path));
     return std::nullopt;
   }
+  if (!fs::is_regular_file(status)) {  // a pipe or a device could be read for ever
+    node.error(diagnostics, fmt::format("'{}' is no ordinary file ({})", reference, path.string()), "name a file");
+    return std::nullopt;
+  }
   return path;
 }
 
