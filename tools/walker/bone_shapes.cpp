@@ -20,7 +20,9 @@ void add_pad(BoneShape& shape, const glm::vec3& attachment) {
   const float gap = shape.solid.distance(at);
   if (gap < kPadGap || gap > kPadReach) return;
   const glm::vec3 out = shape.solid.outward(at);
-  shape.solid.keep(RoundCone{{at - out * 0.0035f, 0.0035f}, {at - out * (gap + 0.005f), 0.0075f}});
+  // The wider the gap, the broader the boss.
+  const float tip = std::clamp(0.6f * gap, 0.0025f, 0.0065f);
+  shape.solid.keep(RoundCone{{at - out * tip, tip}, {at - out * (gap + 0.0015f), 1.8f * tip}});
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 void add_femur_top(Solid& solid) {
   solid.add(Ellipsoid{glm::vec3(0.0f), glm::vec3(0.0222f)});
   solid.add_tube({knot_mm(-1, -3, 8, 16), knot_mm(-7, -11, 24, 13.5f), knot_mm(-12, -20, 38, 15)});
-  solid.add_tube({knot_mm(-15, -7, 45, 10), knot_mm(-19, -16, 49, 11.5f), knot_mm(-15, -34, 47, 12)});
-  solid.add_tube({knot_mm(-22, -2, 43, 7), knot_mm(-30, -18, 42, 6.5f), knot_mm(-30, -38, 34, 6.5f),
+  solid.add_tube({knot_mm(-18, -10, 47, 9), knot_mm(-19, -17, 49, 11.5f), knot_mm(-15, -34, 47, 12)});
+  solid.add_tube({knot_mm(-26, -7, 44, 6), knot_mm(-30, -18, 42, 6.5f), knot_mm(-30, -38, 34, 6.5f),
                   knot_mm(-22, -55, 18, 8)});                                       // intertrochanteric crest
   solid.add_tube({knot_mm(-20, -57, 15, 8.5f), knot_mm(-10, -66, 26, 12)});          // lesser trochanter
   solid.add_tube({knot_mm(-12, -20, 38, 16), knot_mm(-11, -48, 38, 15)});
@@ -41,7 +41,7 @@ void add_femur_condyles(Solid& solid) {
 
 void add_tibia(Solid& solid) {
   solid.add(Ellipsoid{from_opensim_mm(1, -42, -13), 0.001f * glm::vec3(16.5f, 12.5f, 25)});
-  solid.add(Ellipsoid{from_opensim_mm(1, -42, 19), 0.001f * glm::vec3(17, 12.5f, 25)});
+  solid.add(Ellipsoid{from_opensim_mm(0, -42, 17.5f), 0.001f * glm::vec3(14.5f, 12.5f, 25)});
   solid.add(Ellipsoid{from_opensim_mm(8, -46, 3), 0.001f * glm::vec3(26, 14, 22)});
   solid.add_tube({knot_mm(-3, -33, -4, 5), knot_mm(-3, -29, -3, 2.5f)});              // intercondylar eminence
   solid.add_tube({knot_mm(-3, -33, 6, 5), knot_mm(-3, -29.5f, 5, 2.5f)});

@@ -145,8 +145,8 @@ MeshSize plan_mesh(const MuscleSpec& muscle) {
   const float thickness = std::sqrt(1.7f * muscle.volume() / belly_length / (glm::pi<float>() * shape.aspect));
   const float girth = 2.1f * thickness * (1.0f + shape.aspect);
   const auto even = [](float x) { return 2 * static_cast<std::size_t>(std::lround(0.5f * x)); };
-  return {std::clamp(even(12.0f + length / 0.0094f), std::size_t{24}, std::size_t{64}),
-          std::clamp(even(8.0f + girth / 0.0068f), std::size_t{16}, std::size_t{36})};
+  return {std::clamp(even(14.0f + length / 0.0078f), std::size_t{24}, std::size_t{68}),
+          std::clamp(even(8.0f + girth / 0.0056f), std::size_t{16}, std::size_t{40})};
 }
 
 std::vector<TriangleMesh> mesh_bellies(std::vector<Belly>& bellies, const std::vector<MeshSize>& sizes,

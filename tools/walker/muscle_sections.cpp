@@ -11,7 +11,8 @@ namespace fascicle::walker {
 namespace {
 
 constexpr int kRelaxSteps = 160;
-constexpr float kSunkEnd = 0.003f;  // m: a mesh starts and ends this deep in its bone, as attachments have an area
+constexpr float kSunkEnd = 0.004f;  // m: a mesh starts and ends this deep in its bone, as attachments have an area
+constexpr float kSidewaysDrag = 0.6f;  // flat bellies rather stack than slip aside
 constexpr float kEndShare = 0.10f;  // of the length at each end, where the curve is held to the attachment
 
 float smooth_step(float t) {
@@ -54,8 +55,11 @@ void smooth(std::vector<glm::vec3>& points, int passes) {
 }
 
 glm::vec3 shift_at(const BellyShape& shape, float s) {
-  const glm::vec3 shift = s < 0.5f ? glm::mix(shape.origin_shift, shape.middle_shift, smooth_step(2.0f * s))
-                                   : glm::mix(shape.middle_shift, shape.insertion_shift, smooth_step(2.0f * s - 1.0f));
+  constexpr float kTendon = 0.85f;  // where tendon_shift holds
+  glm::vec3 shift;
+  if (s < 0.5f) shift = glm::mix(shape.origin_shift, shape.middle_shift, smooth_step(2.0f * s));
+  else if (s < kTendon) shift = glm::mix(shape.middle_shift, shape.tendon_shift, smooth_step((s - 0.5f) / (kTendon - 0.5f)));
+  else shift = glm::mix(shape.tendon_shift, shape.insertion_shift, smooth_step((s - kTendon) / (1.0f - kTendon)));
   return 0.001f * from_opensim(shift);
 }
 
@@ -91,7 +95,7 @@ void shape_sections(Belly& belly) {
     const float end_h = glm::mix(shape.origin_thickness, shape.insertion_thickness, smooth_step(s)) * 0.001f;
     // A tendon between its ends is rounder and thinner than where it fans out on the bone.
     const float near_end = std::max(1.0f - s / 0.12f, 1.0f - (1.0f - s) / 0.12f);
-    const float waist = glm::mix(0.72f, 1.0f, smooth_step(near_end));
+    const float waist = glm::mix(0.65f, 1.0f, smooth_step(near_end));
     const float tendon_w = end_w * waist, tendon_h = end_h * glm::mix(1.0f, waist, 0.3f);
     const float area = peak_area * share;  // divided by pi already: w h
     const float belly_h = std::sqrt(area / shape.aspect);
@@ -146,6 +150,7 @@ void relax(std::vector<Belly>& bellies, const std::vector<BoneShape>& shapes) {
         Section& section = belly.sections[i];
         const float s = static_cast<float>(i) / static_cast<float>(n - 1);
         glm::vec3 move = glm::clamp(push[m][i] * 0.12f, glm::vec3(-0.002f), glm::vec3(0.002f));
+        move -= kSidewaysDrag * glm::dot(move, section.u) * section.u;
         move += 0.02f * (home[m][i] - section.centre);
         const float clearance = belly.muscle->belly.lift * section.h + 0.0008f;
         const float distance = rest_distance(shapes, section.centre);

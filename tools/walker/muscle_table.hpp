@@ -36,7 +36,8 @@ struct BellyShape {
   glm::vec3 outward_origin{1.0f, 0.0f, 0.0f};    // the thickness points this way at the origin ...
   glm::vec3 outward_insertion{1.0f, 0.0f, 0.0f}; // ... and this way at the insertion
   glm::vec3 origin_shift{0.0f};                  // of the curve against the action line: where two lines share a
-  glm::vec3 middle_shift{0.0f};                  // place their meshes lie side by side
+  glm::vec3 middle_shift{0.0f};                  // place their meshes lie side by side; a straight line between two
+  glm::vec3 tendon_shift{0.0f};                  // points passes beside the tendon, which joints hold down
   glm::vec3 insertion_shift{0.0f};
 };
 

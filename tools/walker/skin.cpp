@@ -39,6 +39,22 @@ Solid make_envelope() {
   return solid;
 }
 
+// Takes the grid's steps out of the surface: shrinking and swelling passes by turns (Taubin 1995) keep the volume.
+void fair(TriangleMesh& mesh, int passes) {
+  for (int pass = 0; pass < 2 * passes; ++pass) {
+    const float weight = pass % 2 == 0 ? 0.5f : -0.53f;
+    std::vector<glm::vec3> sum(mesh.positions.size(), glm::vec3(0.0f));
+    std::vector<float> count(mesh.positions.size(), 0.0f);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+      const std::uint32_t a = mesh.indices[i], b = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+      sum[a] += mesh.positions[b];
+      count[a] += 1.0f;
+    }
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      if (count[v] > 0.0f) mesh.positions[v] += weight * (sum[v] / count[v] - mesh.positions[v]);
+  }
+}
+
 void add_normals(TriangleMesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), glm::vec3(0.0f));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -110,6 +126,7 @@ Skin make_skin(const std::vector<TriangleMesh>& parts, const std::vector<BoneSha
   Skin skin;
   skin.mesh = wrap_meshes(all, settings);
   skin.mesh.name = "skin";
+  fair(skin.mesh, 8);
   add_normals(skin.mesh);
 
   std::vector<Weights> weights;
