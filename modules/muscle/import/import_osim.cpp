@@ -9,8 +9,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/animation/joint_model_reader.hpp"
 #include "engine/animation/joint_model_writer.hpp"
 #include "engine/content/file_text.hpp"
+#include "engine/content/json_reader.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -39,11 +41,19 @@ class CharacterImport {
     line(fmt::format("\"specific_tension\": {},", json_number(options_.specific_tension)));
     write_muscles();
     text_ += "}\n";
+    if (diagnostics_.ok()) check_that_it_reads_back();
     if (!diagnostics_.ok()) return std::move(diagnostics_);
     return Result<std::string>(std::move(text_), std::move(diagnostics_));
   }
 
  private:
+  // The reader of character files is stricter than XML (a scaled spline may leave its range, for instance).
+  void check_that_it_reads_back() {
+    const Result<JsonDocument> document = parse_json(text_, model_.file + " (as a character)");
+    if (!document) return diagnostics_.append(document.diagnostics());
+    diagnostics_.append(read_joint_model(document->root().member("skeleton").member("joints")).diagnostics());
+  }
+
   void line(const std::string& content) { text_ += "  " + content + "\n"; }
 
   const std::string& bone_name(std::int32_t bone) const {

@@ -28,6 +28,11 @@ class OsimReader {
   OsimReader(std::string_view text, const std::string& file) : text_(text), fields_(text, file) { result_.file = file; }
 
   Result<OsimModel> read() {
+    if (const std::size_t at = find_invalid_utf8(text_); at != std::string_view::npos) {
+      fields_.error_at(at, fmt::format("byte 0x{:02x} is not UTF-8", static_cast<unsigned char>(text_[at])),
+                       "save the file as UTF-8; is it a text file?");
+      return std::move(fields_.diagnostics);
+    }
     pugi::xml_document document;
     const pugi::xml_parse_result parsed =
         document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);

@@ -49,6 +49,8 @@ class XmlFields {
 std::string child_text(pugi::xml_node parent, const char* child);
 std::string name_of(pugi::xml_node node);
 std::vector<std::string> split_words(std::string_view text);
+// Offset of the first byte that is not UTF-8 (RFC 3629), or npos. pugixml passes such bytes on as they are.
+std::size_t find_invalid_utf8(std::string_view text);
 // The elements among a node's children.
 std::vector<pugi::xml_node> elements(pugi::xml_node parent);
 

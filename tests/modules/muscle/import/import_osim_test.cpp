@@ -38,6 +38,15 @@ TEST(ImportOsim, RefusesAMuscleThatHasNoLengthOrNoForce) {
   EXPECT_THAT(to_text(diagnostics), HasSubstr("its max_isometric_force is 0"));
 }
 
+TEST(ImportOsim, RefusesWhatACharacterFileCannotHold) {
+  Diagnostics diagnostics;
+  // A spline that lies beyond the range of character files once it is multiplied.
+  std::string text = with(small_model(), "<x>-2 0</x><y>1 0</y>", "<x>-2 0</x><y>100 0</y>");
+  text = with(text, "<scale>0.01</scale>", "<scale>1e8</scale>");
+  EXPECT_EQ(import_text(text, &diagnostics), "");
+  EXPECT_THAT(to_text(diagnostics), HasSubstr("beyond 1e9"));
+}
+
 TEST(ImportOsim, TakesPointsInTheirDefaultStateWithOneWarningAMuscle) {
   Diagnostics diagnostics;
   const std::string text = import_text(small_model(), &diagnostics);

@@ -123,6 +123,12 @@ TEST(OsimReader, RefusesWhatIsNotThere) {
               HasSubstr("x.osim:1:2: Storage: this is not an OpenSim document"));
 }
 
+TEST(OsimReader, RefusesOtherEncodings) {
+  const std::string latin = with(small_model(), "Made for tests", "Fait \xe0 l'essai");
+  EXPECT_THAT(to_text(parse_osim(latin, "s.osim").diagnostics()), HasSubstr("s.osim:5:19: byte 0xe0 is not UTF-8; save the file as UTF-8"));
+  EXPECT_TRUE(parse_osim(with(small_model(), "Made for tests", "Fait \xc3\xa0 l'essai"), "s.osim").ok());
+}
+
 TEST(OsimReader, ReportsAllErrorsInOneGoWithTheirLines) {
   std::string text = with(small_model(), "<mass>7.5</mass>", "<mass>x</mass>");
   text = with(text, "<range>-1 2</range>", "<range>-1</range>");
