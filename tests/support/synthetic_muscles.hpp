@@ -62,7 +62,8 @@ inline std::vector<muscle::MuscleDescription> synthetic_muscles(std::uint32_t se
     random = 12345;
     for (std::size_t m = 0; m < kVias.size(); ++m) {
       muscle::MuscleDescription description;
-      description.name = (left ? "left_" : "right_") + std::to_string(m);
+      description.name = left ? "left_" : "right_";
+      description.name += std::to_string(m);
       // From bone to bone down the leg; every third muscle crosses two joints.
       const std::int32_t leg = left ? kFemurLeft : kFemurRight;
       const std::array<std::int32_t, 4> chain = {kPelvis, leg, leg + 1, leg + 2};

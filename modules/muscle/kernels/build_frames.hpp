@@ -32,6 +32,30 @@ FASCICLE_INLINE WideVector<N> normalized(WideVector<N> a) {
   return (broadcast<N>(1.0f) / square_root(dot(a, a))) * a;
 }
 
+// Squared length below which a bone's direction has vanished: the bone's matrix is singular.
+inline constexpr float kVanishedSquared = 1.0e-20f;
+
+// The direction of `a`, or the x axis.
+template <int N>
+FASCICLE_INLINE WideVector<N> direction_of(WideVector<N> a) {
+  const WideFloat<N> zero = broadcast<N>(0.0f), one = broadcast<N>(1.0f);
+  const WideFloat<N> squared = dot(a, a);
+  const WideInt<N> good = broadcast<N>(kVanishedSquared) < squared;
+  return select(good, (one / square_root(select(good, squared, one))) * a, WideVector<N>{one, zero, zero});
+}
+
+// The direction of `a` square to the unit vector `t`, or any other.
+template <int N>
+FASCICLE_INLINE WideVector<N> square_direction_of(WideVector<N> a, WideVector<N> t) {
+  const WideFloat<N> zero = broadcast<N>(0.0f), one = broadcast<N>(1.0f);
+  a = a - dot(a, t) * t;
+  const WideFloat<N> squared = dot(a, a);
+  const WideInt<N> good = broadcast<N>(kVanishedSquared) < squared;
+  const WideInt<N> steep = absolute(t.x) < broadcast<N>(0.7f);
+  const WideVector<N> axis = select(steep, WideVector<N>{one, zero, zero}, WideVector<N>{zero, one, zero});
+  return normalized(select(good, (one / square_root(select(good, squared, one))) * a, axis - dot(axis, t) * t));
+}
+
 // `r`, square to `t`, carried to the tangent `next_t` along `step`; along no step: by the shortest arc.
 template <int N>
 FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector<N> step, WideVector<N> next_t) {
@@ -112,9 +136,8 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   turn_ends(job.bones, job.ends + 2 * lane, tangents, references);
 
   // Along the line: tangents, carried directions, arc length.
-  Vector t = normalized(load_directions<N>(tangents[0]));
-  Vector r = load_directions<N>(references[0]);
-  r = normalized(r - dot(r, t) * t);
+  Vector t = direction_of(load_directions<N>(tangents[0]));
+  Vector r = square_direction_of(load_directions<N>(references[0]), t);
   Vector before = point(0), here = before, u = r;
   Float arc = zero;
   for (std::uint32_t k = 0; k < block.height; ++k) {
@@ -146,9 +169,9 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   }
 
   // The twist at the insertion.
-  const Vector end_t = normalized(load_directions<N>(tangents[1]));
-  Vector wanted = load_directions<N>(references[1]);
-  wanted = carry(wanted - dot(wanted, end_t) * end_t, end_t, Vector{zero, zero, zero}, t);
+  const Vector end_t = direction_of(load_directions<N>(tangents[1]));
+  const Vector end_r = square_direction_of(load_directions<N>(references[1]), end_t);
+  const Vector wanted = carry(end_r, end_t, Vector{zero, zero, zero}, t);
   Float twist = arc_tangent(dot(cross(t, u), wanted), dot(u, wanted));
   const Float last = job.restart_twist ? zero : load<N>(job.twist + lane);
   twist = twist + 6.2831853071795865f * to_float(round_to_int(0.15915494309189534f * (last - twist)));

@@ -47,6 +47,15 @@ static void place_points(const PlacePointsJob& job) {
   }
 }
 
+// See direction_of and square_direction_of in build_frames.hpp.
+static Vec direction_of(Vec a) { return dot(a, a) > kVanishedSquared ? normalized(a) : Vec{1.0f, 0.0f, 0.0f}; }
+static Vec square_direction_of(Vec a, Vec t) {
+  a = a - dot(a, t) * t;
+  if (dot(a, a) > kVanishedSquared) return normalized(a);
+  const Vec axis = __builtin_fabsf(t.x) < 0.7f ? Vec{1.0f, 0.0f, 0.0f} : Vec{0.0f, 1.0f, 0.0f};
+  return normalized(axis - dot(axis, t) * t);
+}
+
 // See `carry` in build_frames.hpp.
 static Vec carry(Vec r, Vec t, Vec step, Vec next_t) {
   const float length_squared = dot(step, step), along = dot(step, t);
@@ -71,9 +80,8 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
   const EndFrame& insertion = job.ends[2 * lane_index + 1];
   const int count = block.counts[lane];
 
-  Vec t = normalized(transform(job.bones + 16 * origin.bone, origin.tangent));
-  Vec r = transform(job.bones + 16 * origin.bone, origin.reference);
-  r = normalized(r - dot(r, t) * t);
+  Vec t = direction_of(transform(job.bones + 16 * origin.bone, origin.tangent));
+  Vec r = square_direction_of(transform(job.bones + 16 * origin.bone, origin.reference), t);
   Vec u = r;
   float arc = 0.0f;
   for (int k = 0; k < count; ++k) {
@@ -94,9 +102,9 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
     arc += __builtin_sqrtf(dot(next - here, next - here));
   }
 
-  const Vec end_t = normalized(transform(job.bones + 16 * insertion.bone, insertion.tangent));
-  Vec wanted = transform(job.bones + 16 * insertion.bone, insertion.reference);
-  wanted = carry(wanted - dot(wanted, end_t) * end_t, end_t, Vec{0.0f, 0.0f, 0.0f}, t);
+  const Vec end_t = direction_of(transform(job.bones + 16 * insertion.bone, insertion.tangent));
+  const Vec end_r = square_direction_of(transform(job.bones + 16 * insertion.bone, insertion.reference), end_t);
+  const Vec wanted = carry(end_r, end_t, Vec{0.0f, 0.0f, 0.0f}, t);
   float twist = __builtin_atan2f(dot(cross(t, u), wanted), dot(u, wanted));
   const float last = job.restart_twist ? 0.0f : job.twist[lane_index];
   twist += 6.2831853071795865f * __builtin_rintf((last - twist) / 6.2831853071795865f);

@@ -1,0 +1,131 @@
+// All instruction sets give the same bits; the plain reference gives the same numbers to rounding.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/muscle_state.hpp"
+#include "tests/support/synthetic_muscles.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+using test::MuscleState;
+
+struct Size {
+  std::uint32_t section_vertices, subdivision;
+};
+void PrintTo(const Size& size, std::ostream* to) { *to << size.section_vertices << " at LSS " << size.subdivision; }
+
+// Muscles of several |C| and LSS in one asset, some with a tendon at both ends, one without, radii of both signs.
+std::shared_ptr<const MuscleAsset> build(Size size) {
+  std::vector<MuscleDescription> muscles = test::synthetic_muscles(size.section_vertices, size.subdivision);
+  muscles[3].tendon_at_origin = 0.5f;
+  muscles[5].tendon_at_origin = muscles[5].tendon_at_insertion = 0.0f;
+  muscles[7].section_vertices = 10;
+  muscles[11].section_vertices = 14;
+  muscles[13].longitudinal_subdivision = 3;
+  const auto result = build_muscle_asset(muscles, test::rest_bones());
+  EXPECT_TRUE(result.ok()) << to_text(result.diagnostics());
+  return *result;
+}
+
+template <class T>
+bool same_bits(const AlignedVector<T>& a, const AlignedVector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+void expect_same_bits(const MuscleState& a, const MuscleState& b) {
+  EXPECT_TRUE(same_bits(a.lines.x, b.lines.x) && same_bits(a.lines.y, b.lines.y) && same_bits(a.lines.z, b.lines.z));
+  EXPECT_TRUE(same_bits(a.sections.ux, b.sections.ux) && same_bits(a.sections.uy, b.sections.uy) &&
+              same_bits(a.sections.uz, b.sections.uz));
+  EXPECT_TRUE(same_bits(a.sections.vx, b.sections.vx) && same_bits(a.sections.vy, b.sections.vy) &&
+              same_bits(a.sections.vz, b.sections.vz));
+  EXPECT_TRUE(same_bits(a.sections.arc, b.sections.arc));
+  EXPECT_TRUE(same_bits(a.sections.twist, b.sections.twist));
+  for (std::size_t end = 0; end < 2; ++end) {
+    EXPECT_TRUE(same_bits(a.tendons.segment[end], b.tendons.segment[end]));
+    EXPECT_TRUE(same_bits(a.tendons.fraction[end], b.tendons.fraction[end]));
+    EXPECT_TRUE(same_bits(a.tendons.arc[end], b.tendons.arc[end]));
+  }
+  EXPECT_TRUE(same_bits(a.surfaces.vertices, b.surfaces.vertices));
+  EXPECT_EQ(std::memcmp(a.volumes.data(), b.volumes.data(), a.volumes.size() * sizeof(float)), 0);
+}
+
+class KernelAgreement : public testing::TestWithParam<Size> {};
+
+TEST_P(KernelAgreement, InstructionSetsGiveTheSameBits) {
+  const auto asset = build(GetParam());
+  const std::vector<SimdLevel> levels = test::available_levels();
+  if (levels.size() < 2) GTEST_SKIP() << "this processor has the baseline alone";
+  std::vector<MuscleState> states(levels.size(), MuscleState(asset));
+  for (int frame = 0; frame < 24; ++frame) {
+    const std::vector<glm::mat4> bones = test::walk_bones(static_cast<float>(frame) / 24.0f);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      states[i].step(mtu_kernels(levels[i]), bones, frame == 0, frame % 2 == 1);
+      if (i > 0) expect_same_bits(states[0], states[i]);
+    }
+    ASSERT_FALSE(testing::Test::HasFailure()) << "frame " << frame;
+  }
+}
+
+TEST_P(KernelAgreement, ReferenceGivesTheSameNumbers) {
+  const auto asset = build(GetParam());
+  MuscleState fast(asset), plain(asset);
+  const MtuKernels& reference = mtu_reference_kernels(SimdLevel::kPortable);
+  for (int frame = 0; frame < 24; ++frame) {
+    const std::vector<glm::mat4> bones = test::walk_bones(static_cast<float>(frame) / 24.0f);
+    fast.step(mtu_kernels(detect_simd()), bones, frame == 0);
+    plain.step(reference, bones, frame == 0);
+    for (std::uint32_t m = 0; m < asset->size(); ++m) {
+      const std::uint32_t last = asset->muscles[m].section_count - 1;
+      for (std::uint32_t k = 0; k <= last; ++k) {
+        ASSERT_LT(glm::distance(fast.point(m, k), plain.point(m, k)), 1.0e-6f);
+        ASSERT_LT(glm::distance(fast.u(m, k), plain.u(m, k)), 1.0e-5f) << m << " " << k;
+        ASSERT_LT(glm::distance(fast.v(m, k), plain.v(m, k)), 1.0e-5f);
+      }
+      ASSERT_NEAR(fast.twist(m), plain.twist(m), 1.0e-5f);
+      // The reference sums up to 4,000 terms in one float; volume_test holds the kernel to 1e-5 in double precision.
+      ASSERT_NEAR(fast.volumes[m], plain.volumes[m], 1.0e-4f * plain.volumes[m] + 1.0e-12f);
+      for (const MuscleEnd end : {MuscleEnd::kOrigin, MuscleEnd::kInsertion}) {
+        ASSERT_NEAR(tendon_border(*asset, fast.tendons, m, end).arc, tendon_border(*asset, plain.tendons, m, end).arc,
+                    1.0e-6f);
+      }
+      for (std::size_t i = 0; i < fast.vertices(m).size(); ++i) {
+        ASSERT_LT(glm::distance(fast.vertices(m)[i].position, plain.vertices(m)[i].position), 1.0e-5f);
+        // Normals: one step of the packing, two where rounding differs in two components.
+        ASSERT_LT(glm::distance(unpack_surface_normal(fast.vertices(m)[i].normal),
+                                unpack_surface_normal(plain.vertices(m)[i].normal)),
+                  4.0e-3f);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, KernelAgreement,
+                         testing::Values(Size{6, 0}, Size{8, 1}, Size{10, 2}, Size{12, 1}, Size{36, 1}, Size{256, 0}),
+                         [](const testing::TestParamInfo<Size>& row) {
+                           return "C" + std::to_string(row.param.section_vertices) + "_LSS" +
+                                  std::to_string(row.param.subdivision);
+                         });
+
+TEST(CheckBones, EveryEntryIsSeen) {
+  for (const SimdLevel level : test::available_levels()) {
+    std::vector<float> bones(16 * 3, 1.0f);
+    EXPECT_TRUE(mtu_kernels(level).check_bones(bones.data(), 3));
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+      for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                              -std::numeric_limits<float>::infinity(), 2.0f * kLargestBoneEntry}) {
+        bones[i] = bad;
+        EXPECT_FALSE(mtu_kernels(level).check_bones(bones.data(), 3)) << i << " " << bad;
+        EXPECT_FALSE(mtu_reference_kernels(level).check_bones(bones.data(), 3));
+        bones[i] = 1.0f;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fascicle::muscle
