@@ -27,23 +27,19 @@ bool ContactSheet::wants(std::uint64_t frame) const {
   return false;
 }
 
-void ContactSheet::take(Renderer& renderer, const glm::vec3& offset) {
-  const int width = renderer.width(), height = renderer.height();
-  renderer.resize(kCellWidth, kCellHeight);
+void ContactSheet::take(Screen& screen, const glm::vec3& offset) {
   DrawView view;
   view.camera = camera_;
   view.camera.target += offset;
   view.lines = false;
   for (int side = 0; side < sides_; ++side) {
+    const std::size_t row = static_cast<std::size_t>(side);
     view.camera.yaw = camera_.yaw + glm::two_pi<float>() * static_cast<float>(side) / static_cast<float>(sides_);
     view.skins = true;
-    renderer.draw(view);
-    with_skin_[static_cast<std::size_t>(side)].push_back(renderer.read_image());
+    with_skin_[row].push_back(screen.take_picture(view, kCellWidth, kCellHeight));
     view.skins = false;
-    renderer.draw(view);
-    without_skin_[static_cast<std::size_t>(side)].push_back(renderer.read_image());
+    without_skin_[row].push_back(screen.take_picture(view, kCellWidth, kCellHeight));
   }
-  renderer.resize(width, height);
 }
 
 Result<std::size_t> ContactSheet::write(const std::filesystem::path& file) const {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "engine/render/renderer.hpp"
+#include "game/screen.hpp"
 
 namespace fascicle::game {
 
@@ -18,7 +18,7 @@ class ContactSheet {
   // True when frame `frame` (from 1) belongs on the sheet.
   bool wants(std::uint64_t frame) const;
   // Draws it from all sides. The target follows `offset` (a character that walks away).
-  void take(Renderer& renderer, const glm::vec3& offset);
+  void take(Screen& screen, const glm::vec3& offset);
   // Writes the page.
   Result<std::size_t> write(const std::filesystem::path& file) const;
 

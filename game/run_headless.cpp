@@ -86,8 +86,10 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
       recorder.record_draw(start, monotonic_ns(), *screen->renderer);
     }
     recorder.end_frame(simulation);
-    if (screen && recorder.wants_picture(simulation, frame == frames)) recorder.take_picture(*screen->renderer);
-    if (sheet && sheet->wants(frame)) sheet->take(*screen->renderer, simulation.travel());
+    if (screen && recorder.wants_picture(simulation, frame == frames)) {
+      recorder.write_picture(screen->take_picture(draw_view, options.width, options.height));
+    }
+    if (sheet && sheet->wants(frame)) sheet->take(*screen, simulation.travel());
     progress.show(frame);
   }
   progress.done();

@@ -86,8 +86,8 @@ bool RunRecorder::wants_picture(const Simulation& simulation, bool is_last) cons
   return options_.screenshot->frame ? *options_.screenshot->frame == simulation.steps() : is_last;
 }
 
-void RunRecorder::take_picture(Renderer& renderer) {
-  const auto written = write_png(renderer.read_image(), options_.screenshot->file);
+void RunRecorder::write_picture(const Image& image) {
+  const auto written = write_png(image, options_.screenshot->file);
   if (!written) std::fputs(to_text(written.diagnostics()).c_str(), stderr);
   picture_failed_ = !written.ok();
 }

@@ -26,9 +26,9 @@ class RunRecorder {
   void record_draw(std::int64_t start_ns, std::int64_t end_ns, Renderer& renderer);
   void end_frame(const Simulation& simulation);
 
-  // Whether this step's picture was asked for, and taking it from what the renderer has drawn.
+  // Whether this step's picture was asked for, and writing it.
   bool wants_picture(const Simulation& simulation, bool is_last) const;
-  void take_picture(Renderer& renderer);
+  void write_picture(const Image& image);
 
   // Writes the files and prints what goes to the terminal. Returns the program's exit status.
   int finish(Simulation& simulation);

@@ -77,7 +77,7 @@ class WindowRun {
     recorder_.record_draw(draw_start, monotonic_ns(), *screen_.renderer);
     recorder_.end_frame(simulation_);
     if (steps > 0 && recorder_.wants_picture(simulation_, options_.frames == simulation_.steps())) {
-      recorder_.take_picture(*screen_.renderer);
+      recorder_.write_picture(screen_.renderer->read_image());
     }
     screen_.window->swap();
   }

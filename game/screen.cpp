@@ -7,6 +7,7 @@ Result<std::unique_ptr<Screen>> finish(std::unique_ptr<Screen> screen, int width
   RendererOptions options;
   options.width = width;
   options.height = height;
+  if (screen->info.software) options.samples = 0;
   auto renderer = Renderer::create(options);
   if (!renderer) return renderer.diagnostics();
   screen->renderer = std::move(*renderer);
@@ -21,6 +22,16 @@ Result<std::unique_ptr<Screen>> finish(std::unique_ptr<Screen> screen, int width
 Screen::~Screen() {
   overlay.reset();
   renderer.reset();
+}
+
+Image Screen::take_picture(const DrawView& view, int width, int height) {
+  const int own_width = renderer->width(), own_height = renderer->height();
+  const int factor = info.software ? 2 : 1;
+  renderer->resize(factor * width, factor * height);
+  renderer->draw(view);
+  Image image = renderer->read_image();
+  renderer->resize(own_width, own_height);
+  return factor == 1 ? image : shrink(image, factor);
 }
 
 Result<std::unique_ptr<Screen>> open_window(const std::string& title, int width, int height) {

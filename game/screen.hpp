@@ -18,6 +18,10 @@ struct Screen {
   GlInfo info;
 
   ~Screen();  // the context goes last
+
+  // A finished picture of `width` by `height` pixels; the renderer keeps its own size. Without a graphics card frames
+  // are drawn with one sample a pixel, because more would cost several times as much, and pictures with four.
+  Image take_picture(const DrawView& view, int width, int height);
 };
 
 Result<std::unique_ptr<Screen>> open_window(const std::string& title, int width, int height);
