@@ -1,12 +1,11 @@
 #include "engine/ecs/schedule.hpp"
 
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <cassert>
 
 #include "engine/ecs/monotonic_clock.hpp"
 #include "engine/ecs/schedule_frame.hpp"
+#include "engine/parallel/task_set.hpp"
 
 namespace fascicle::ecs {
 
@@ -129,24 +128,26 @@ class ScheduleRun {
   }
 
   void run_in_parallel(const Stage& stage) {
-    tbb::task_group group;
-    group_ = &group;
+    parallel::TaskSet tasks;
+    tasks_ = &tasks;
     running_.store(static_cast<int>(stage.systems.size()), std::memory_order_release);
     for (std::size_t i = 1; i < stage.roots.size(); ++i) start(stage.roots[i]);
     run_from(stage.roots[0]);
-    group.wait();
+    tasks.wait();
     // Every system's last act on running_ is a release: with this, all they wrote is visible here.
     [[maybe_unused]] const int running = running_.load(std::memory_order_acquire);
     assert(running == 0);
   }
 
   void start(std::size_t id) {
-    group_->run([this, id] { run_from(id); });
+    tasks_->start([](void* run, std::size_t index) { static_cast<ScheduleRun*>(run)->run_from(index); }, this, id);
   }
 
   // Runs a system that is ready, then the first of those it makes ready, and so on; starts the others.
   void run_from(std::size_t id) {
+    // What the caller did before the stage, and what the systems did that this one waited for.
     (void)running_.load(std::memory_order_acquire);
+    (void)frame_.nodes[id]->state.pending.load(std::memory_order_acquire);
     const int worker = parallel::current_worker();
     constexpr std::size_t kNone = ~std::size_t{0};
     while (id != kNone) {
@@ -209,7 +210,7 @@ class ScheduleRun {
   int workers_;
   std::size_t barrier_row_;  // timing row of the next stage with commands
   Commands no_commands_;     // for systems that take none
-  tbb::task_group* group_ = nullptr;
+  parallel::TaskSet* tasks_ = nullptr;
   // Systems of the stage that have not ended. Its stores and loads also repeat, where the thread sanitizer can see it,
   // the order oneTBB gives between the caller and the workers.
   std::atomic<int> running_ = 0;

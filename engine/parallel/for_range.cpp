@@ -5,8 +5,6 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include "engine/parallel/handoff.hpp"
-
 namespace fascicle::parallel::detail {
 
 void run_chunks(std::size_t count, std::size_t grain, ChunkFunction function, void* body) {
@@ -21,19 +19,12 @@ void run_chunks(std::size_t count, std::size_t grain, ChunkFunction function, vo
     run(0, chunks);
     return;
   }
-  Handoff start, finish;
-  start.send();
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          start.receive();
-          run(range.begin(), range.end());
-          finish.send();
-        },
+        [&](const tbb::blocked_range<std::size_t>& range) { run(range.begin(), range.end()); },
         tbb::auto_partitioner());
   });
-  finish.receive();
 }
 
 }  // namespace fascicle::parallel::detail

@@ -9,6 +9,8 @@
 #include <memory>
 #include <type_traits>
 
+#include "engine/parallel/handoff.hpp"
+
 namespace fascicle::parallel {
 
 namespace detail {
@@ -29,11 +31,25 @@ void for_range(std::size_t count, std::size_t grain, F&& f) {
     f(std::size_t{0}, count);
     return;
   }
-  using Body = std::remove_reference_t<F>;
-  void* body = const_cast<void*>(static_cast<const void*>(std::addressof(f)));
-  detail::run_chunks(
-      count, grain,
-      [](void* context, std::size_t begin, std::size_t end) { (*static_cast<Body*>(context))(begin, end); }, body);
+  // Workers reach everything through `body`, and its handoffs before anything else in it.
+  struct Body {
+    std::remove_reference_t<F>* function;
+    Handoff start, finish;
+  };
+  struct SendAtEnd {
+    Handoff& finish;
+    ~SendAtEnd() { finish.send(); }
+  };
+  Body body{std::addressof(f), {}, {}};
+  body.start.send();
+  const auto run = [](void* context, std::size_t begin, std::size_t end) {
+    Body& shared = *static_cast<Body*>(context);
+    shared.start.receive();
+    const SendAtEnd send_at_end{shared.finish};
+    (*shared.function)(begin, end);
+  };
+  detail::run_chunks(count, grain, run, &body);
+  body.finish.receive();
 }
 
 // Number of chunks for_range makes of `count` elements.
