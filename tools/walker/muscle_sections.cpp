@@ -95,8 +95,8 @@ void shape_sections(Belly& belly) {
     const float end_h = glm::mix(shape.origin_thickness, shape.insertion_thickness, smooth_step(s)) * 0.001f;
     // A tendon between its ends is rounder and thinner than where it fans out on the bone.
     const float near_end = std::max(1.0f - s / 0.12f, 1.0f - (1.0f - s) / 0.12f);
-    const float waist = glm::mix(0.65f, 1.0f, smooth_step(near_end));
-    const float tendon_w = end_w * waist, tendon_h = end_h * glm::mix(1.0f, waist, 0.3f);
+    const float waist = glm::mix(0.52f, 1.0f, smooth_step(near_end));
+    const float tendon_w = std::max(end_w * waist, 0.0015f), tendon_h = end_h * glm::mix(1.0f, waist, 0.3f);
     const float area = peak_area * share;  // divided by pi already: w h
     const float belly_h = std::sqrt(area / shape.aspect);
     const float belly_w = area > 0.0f ? area / belly_h : 0.0f;

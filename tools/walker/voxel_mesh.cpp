@@ -128,9 +128,9 @@ TriangleMesh wrap_meshes(std::span<const TriangleMesh> parts, const WrapSettings
   const auto accessor = grid->getConstAccessor();
   const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor, openvdb::tools::BoxSampler> sampler(
       accessor, grid->transform());
-  const float cut = settings.cut_height;
-  const auto field = [&sampler, cut](const glm::vec3& p) {
-    return std::max(sampler.wsSample(openvdb::Vec3d(p.x, p.y, p.z)), p.y - cut);
+  const float cut = settings.cut_height, floor = settings.floor_height;
+  const auto field = [&sampler, cut, floor](const glm::vec3& p) {
+    return std::max({sampler.wsSample(openvdb::Vec3d(p.x, p.y, p.z)), p.y - cut, floor - p.y});
   };
   const openvdb::CoordBBox bounds = grid->evalActiveVoxelBoundingBox();
   const openvdb::Vec3d low = grid->indexToWorld(bounds.min());

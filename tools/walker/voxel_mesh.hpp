@@ -29,7 +29,8 @@ struct WrapSettings {
   float erode = 0.008f;        // m, ... then back: closes gaps narrower than twice `dilate`
   int smooth_passes = 3;       // Gaussian filters between the two
   float mesh_voxel = 0.010f;   // m, edge length of the result
-  float cut_height = 1.0f;     // m, nothing is kept above
+  float cut_height = 1.0f;     // m, nothing is kept above ...
+  float floor_height = 0.0f;   // m, ... or below
 };
 
 // The smooth closed surface around the union of `parts`.
