@@ -124,8 +124,8 @@ std::optional<OsimFrame> OsimFrames::frame_at(const std::string& path) {
   }
   offset.visiting = true;
   OsimFrame frame;
-  const bool right = fields_.vector(offset.node, "translation", frame.translation) &
-                     fields_.vector(offset.node, "orientation", frame.orientation);
+  bool right = fields_.vector(offset.node, "translation", frame.translation);
+  right = fields_.vector(offset.node, "orientation", frame.orientation) && right;
   const pugi::xml_node socket = offset.node.child("socket_parent");
   if (!socket) {
     fields_.error(offset.node, "an offset frame without socket_parent", "name the body that it is fixed to");
