@@ -123,8 +123,8 @@ std::vector<std::int32_t> bones_between(const Skeleton& skeleton, std::int32_t f
   return {from, to};
 }
 
-bool check_attachments(std::span<const PlacedAttachment> line, const MuscleDescription& values, const Skeleton& skeleton,
-                       const MirrorRule& mirror, Diagnostics& diagnostics) {
+bool check_attachments(std::span<const PlacedAttachment> line, const MuscleDescription& values,
+                       const Skeleton& skeleton, const MirrorRule& mirror, Diagnostics& diagnostics) {
   if (line.size() < 2) return false;
   bool fine = true;
   for (std::size_t i = 1; i < line.size(); ++i) {

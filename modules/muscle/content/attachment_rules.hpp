@@ -33,9 +33,10 @@ std::vector<std::int32_t> bones_between(const Skeleton& skeleton, std::int32_t f
 //   parent of the topmost, or a child that carries no further chain (a patella, a fibula, a twist bone). A bone whose
 //   mirror image lies between them, itself not, is the wrong side;
 // - in a line with via points no point may be further from the next than the muscle could ever be long: twice the
-//   length at which its fibres are stretched to double (l_Ts + 2 l_Fo), brought to the character's size where source_length is given.
+//   length at which its fibres are stretched to double (l_Ts + 2 l_Fo), brought to the character's size
+//   where source_length is given.
 // Returns whether all is well.
-bool check_attachments(std::span<const PlacedAttachment> line, const MuscleDescription& values, const Skeleton& skeleton,
-                       const MirrorRule& mirror, Diagnostics& diagnostics);
+bool check_attachments(std::span<const PlacedAttachment> line, const MuscleDescription& values,
+                       const Skeleton& skeleton, const MirrorRule& mirror, Diagnostics& diagnostics);
 
 }  // namespace fascicle::muscle

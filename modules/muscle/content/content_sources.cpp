@@ -137,8 +137,9 @@ std::shared_ptr<const TriangleMesh> ContentSources::mesh(const std::string& refe
                                                                             : file->find_mesh(parts.name);
     if (found == nullptr) {
       node.error(diagnostics,
-                 parts.name.empty() ? fmt::format("'{}' has {} meshes and none is named", reference, file->meshes.size())
-                                    : fmt::format("'{}' has no mesh '{}'", parts.file.string(), parts.name),
+                 parts.name.empty()
+                     ? fmt::format("'{}' has {} meshes and none is named", reference, file->meshes.size())
+                     : fmt::format("'{}' has no mesh '{}'", parts.file.string(), parts.name),
                  suggest_name(parts.name, mesh_names(*file), "meshes"));
       return nullptr;
     }

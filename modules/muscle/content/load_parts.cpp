@@ -117,7 +117,8 @@ void load_muscle_meshes(const CharacterFile& file, const fs::path& base, std::sp
   for (const MuscleEntry& entry : file.muscles) {
     if (!entry.mesh.given()) continue;
     if (!gltf) {
-      entry.mesh.node.error(diagnostics, fmt::format("the mesh '{}' is named, but the file has no muscle_meshes", entry.mesh.text),
+      entry.mesh.node.error(diagnostics,
+                            fmt::format("the mesh '{}' is named, but the file has no muscle_meshes", entry.mesh.text),
                             "add \"muscle_meshes\": {\"file\": \"muscles.glb\"}, or leave out \"mesh\"");
     } else if (gltf->find_mesh(entry.mesh.text) == nullptr) {
       entry.mesh.node.error(diagnostics,

@@ -89,8 +89,8 @@ bool claim_name(const Resolver& resolver, const std::string& name, const JsonNod
   const auto [known, fresh] = resolver.names.emplace(name, fmt::format("{}:{}", where.file, where.line));
   if (fresh) return true;
   node.error(resolver.diagnostics,
-             fmt::format("{} a second muscle '{}', the first is at {}", mirrored ? "the mirror image would be" : "this is",
-                         name, known->second),
+             fmt::format("{} a second muscle '{}', the first is at {}",
+                         mirrored ? "the mirror image would be" : "this is", name, known->second),
              mirrored ? "write only one side, or leave out \"mirror\"" : "give each muscle a name of its own");
   return false;
 }
@@ -105,10 +105,10 @@ std::vector<PlacedAttachment> mirror_line(const Resolver& resolver, std::span<co
     if (const std::optional<std::string> image = mirror_name(bone, rule.bones)) {
       placed.bone = resolver.skeleton.find(*image);
       if (placed.bone < 0) {
-        placed.bone_node.error(resolver.diagnostics,
-                               fmt::format("the mirror image of bone '{}' would be '{}', which the skeleton doesn't have",
-                                           bone, *image),
-                               suggest_name(*image, resolver.skeleton.names, "bones"));
+        placed.bone_node.error(
+            resolver.diagnostics,
+            fmt::format("the mirror image of bone '{}' would be '{}', which the skeleton doesn't have", bone, *image),
+            suggest_name(*image, resolver.skeleton.names, "bones"));
         sound = false;
       }
     }

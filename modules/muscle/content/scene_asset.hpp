@@ -18,7 +18,8 @@ struct Motion;
 
 namespace fascicle::muscle {
 
-// What a character plays: a clip of its glTF file, or an OpenSim motion on its joint skeleton. Neither: it stands at rest.
+// What a character plays: a clip of its glTF file, or an OpenSim motion on its joint skeleton. Neither: it stands at
+// rest.
 struct AnimationChoice {
   std::shared_ptr<const Clip> clip;
   std::shared_ptr<const Motion> motion;

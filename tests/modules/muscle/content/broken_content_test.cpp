@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
          "@:1:1: the file is empty; write a JSON document, such as { }"},
         BrokenText{"OnlyANumber", "42\n",
          "@:1:1: the number 42 where an object is wanted; write an object"},
-        BrokenText{"NestedTooDeeply", "{\"version\": 1, \"name\": " + std::string(100, '[') + std::string(100, ']') + "}",
+        BrokenText{"NestedTooDeeply",
+                   "{\"version\": 1, \"name\": " + std::string(100, '[') + std::string(100, ']') + "}",
          "@:1:87: /name/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0"
          "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0: nested deeper than 64 levels; flatten it; is it the right file?"}),
     [](const auto& case_info) { return std::string(case_info.param.name); });

@@ -54,7 +54,8 @@ TEST(ContentReloader, SaysNothingWhereNothingChanges) {
   const auto file = write_pair(folder);
   // A file written as it was being loaded would be loaded again.
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-    std::filesystem::last_write_time(entry.path(), std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    const auto now = std::filesystem::file_time_type::clock::now();
+    std::filesystem::last_write_time(entry.path(), now - std::chrono::hours(1));
   }
   ContentReloader reloader(file, load(file));
   EXPECT_FALSE(reloader.wait());
@@ -143,21 +144,25 @@ struct Edit {
 };
 
 Edit random_edit(std::mt19937& random) {
-  const int number = static_cast<int>(random() % 50);
+  const auto number = static_cast<std::size_t>(random() % 50);
   const std::string n = std::to_string(number);
+  const std::string scene(kScene), legs(kLegs), shapes(kShapes);
+  const auto vertices = [&](std::size_t count) {
+    return with(legs, "\"section_vertices\": 8", "\"section_vertices\": " + std::to_string(count));
+  };
   switch (random() % 12) {
-    case 0: return {"pair.scene.json", with(std::string(kScene), "\"frames\": 10", "\"frames\": 1" + n)};
-    case 1: return {"pair.scene.json", with(std::string(kScene), "\"heading\": 0.5", "\"heading\": 0." + n)};
-    case 2: return {"legs.character.json", with(std::string(kLegs), "1365", "13" + n)};
-    case 3: return {"legs.character.json", with(std::string(kLegs), "[0.04, -0.33, 0.01]", "[0.04, -0.3" + n + ", 0]")};
-    case 4: return {"legs.character.json", with(std::string(kLegs), "\"section_vertices\": 8", "\"section_vertices\": " + std::to_string(6 + 2 * (number % 4)))};
-    case 5: return {"block.character.json", std::string(kBlock) + std::string(static_cast<std::size_t>(number), '\n')};
-    case 6: return {"shapes.gltf", with(std::string(kShapes), "0.5, 0]", "0." + n + ", 0]")};
-    case 7: return {"legs.character.json", std::string(kLegs)};
-    case 8: return {"legs.character.json", with(std::string(kLegs), "\"section_vertices\": 8", "\"section_vertices\": " + std::to_string(7 + 2 * (number % 4))), true};
-    case 9: return {"legs.character.json", std::string(kLegs.substr(0, 10 + kLegs.size() * static_cast<std::size_t>(number) / 60)), true};
-    case 10: return {"pair.scene.json", with(std::string(kScene), "\"nod\"", "\"nod" + n + "\""), true};
-    default: return {"shapes.gltf", with(std::string(kShapes), "\"count\": 12", "\"count\": 9" + n), true};
+    case 0: return {"pair.scene.json", with(scene, "\"frames\": 10", "\"frames\": 1" + n)};
+    case 1: return {"pair.scene.json", with(scene, "\"heading\": 0.5", "\"heading\": 0." + n)};
+    case 2: return {"legs.character.json", with(legs, "1365", "13" + n)};
+    case 3: return {"legs.character.json", with(legs, "[0.04, -0.33, 0.01]", "[0.04, -0.3" + n + ", 0]")};
+    case 4: return {"legs.character.json", vertices(6 + 2 * (number % 4))};
+    case 5: return {"block.character.json", std::string(kBlock) + std::string(number, '\n')};
+    case 6: return {"shapes.gltf", with(shapes, "0.5, 0]", "0." + n + ", 0]")};
+    case 7: return {"legs.character.json", legs};
+    case 8: return {"legs.character.json", vertices(7 + 2 * (number % 4)), true};
+    case 9: return {"legs.character.json", legs.substr(0, 10 + legs.size() * number / 60), true};
+    case 10: return {"pair.scene.json", with(scene, "\"nod\"", "\"nod" + n + "\""), true};
+    default: return {"shapes.gltf", with(shapes, "\"count\": 12", "\"count\": 9" + n), true};
   }
 }
 
