@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <memory>
+#include <mutex>
 #include <type_traits>
 
 #include "engine/parallel/handoff.hpp"
@@ -16,13 +18,30 @@ namespace fascicle::parallel {
 namespace detail {
 using ChunkFunction = void (*)(void* body, std::size_t begin, std::size_t end);
 // Calls `function(body, begin, end)` once a chunk, in parallel. Kept out of line so that no header needs oneTBB.
+// `function` must not throw.
 void run_chunks(std::size_t count, std::size_t grain, ChunkFunction function, void* body);
+
+// The exception of the chunk that begins lowest.
+class FirstFailure {
+ public:
+  // In a catch block.
+  void note(std::size_t begin);
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t begin_ = 0;
+  std::exception_ptr exception_;
+};
 }  // namespace detail
 
 // Calls f(begin, end) once for each chunk [k grain, min((k + 1) grain, count)), on the workers of the arena the caller
 // runs in. Chunks may run at the same time and in any order: f writes only elements of its own chunk. With count <=
-// grain the one chunk runs inline. A grain of 0 counts as 1. An exception of f is rethrown here, after chunks that
-// have begun are done. Costs about 1 microsecond to start, so choose a grain worth several microseconds.
+// grain the one chunk runs inline. A grain of 0 counts as 1. Exceptions of f do not stop the other chunks; that of the
+// first chunk, if several throw, is rethrown at the end: which one does not depend on the workers. Costs about 1
+// microsecond to start, so choose a grain worth several microseconds.
 template <class F>
 void for_range(std::size_t count, std::size_t grain, F&& f) {
   if (count == 0) return;
@@ -34,22 +53,24 @@ void for_range(std::size_t count, std::size_t grain, F&& f) {
   // Workers reach everything through `body`, and its handoffs before anything else in it.
   struct Body {
     std::remove_reference_t<F>* function;
+    detail::FirstFailure failure;
     Handoff start, finish;
   };
-  struct SendAtEnd {
-    Handoff& finish;
-    ~SendAtEnd() { finish.send(); }
-  };
-  Body body{std::addressof(f), {}, {}};
+  Body body{std::addressof(f), {}, {}, {}};
   body.start.send();
   const auto run = [](void* context, std::size_t begin, std::size_t end) {
     Body& shared = *static_cast<Body*>(context);
     shared.start.receive();
-    const SendAtEnd send_at_end{shared.finish};
-    (*shared.function)(begin, end);
+    try {
+      (*shared.function)(begin, end);
+    } catch (...) {
+      shared.failure.note(begin);
+    }
+    shared.finish.send();
   };
   detail::run_chunks(count, grain, run, &body);
   body.finish.receive();
+  body.failure.rethrow();
 }
 
 // Number of chunks for_range makes of `count` elements.

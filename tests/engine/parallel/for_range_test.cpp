@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -82,18 +83,23 @@ TEST(ForRange, EveryElementOnceAlsoWhenNested) {
   }
 }
 
-TEST(ForRange, ExceptionComesOutAndTheNextLoopWorks) {
+TEST(ForRange, TheFirstChunksExceptionComesOutAndTheNextLoopWorks) {
   for (const int workers : kWorkerCounts) {
     WorkerArena arena(workers);
     arena.execute([&] {
-      EXPECT_THROW(for_range(100, 1,
-                             [](std::size_t begin, std::size_t) {
-                               if (begin == 57) throw std::runtime_error("57");
-                             }),
-                   std::runtime_error);
       std::atomic<int> count = 0;
-      for_range(100, 1, [&](std::size_t, std::size_t) { ++count; });
+      try {
+        for_range(100, 1, [&](std::size_t begin, std::size_t) {
+          ++count;
+          if (begin == 57 || begin == 31 || begin == 99) throw std::runtime_error(std::to_string(begin));
+        });
+        ADD_FAILURE() << "nothing came out";
+      } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "31");
+      }
       EXPECT_EQ(count, 100);
+      for_range(100, 1, [&](std::size_t, std::size_t) { ++count; });
+      EXPECT_EQ(count, 200);
     });
   }
 }
