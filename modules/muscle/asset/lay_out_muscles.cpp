@@ -26,8 +26,8 @@ std::uint32_t find_circle(std::uint32_t count, MuscleAsset& asset) {
     if (asset.circle_tables[i].section_vertices == count) return i;
   }
   CircleTable table{.section_vertices = count, .cosines = {}, .sines = {}};
-  for (std::uint32_t i = 0; i < round_up(count, kLanes); ++i) {
-    const double angle = 2.0 * 3.14159265358979323846 * (i % count) / count;
+  for (std::uint32_t i = 0; i < count + 2 * kLanes; ++i) {  // from theta_{-kLanes} on
+    const double angle = 2.0 * 3.14159265358979323846 * ((i + kLanes * (count - 1)) % count) / count;
     table.cosines.push_back(static_cast<float>(std::cos(angle)));
     table.sines.push_back(static_cast<float>(std::sin(angle)));
   }
@@ -94,7 +94,7 @@ void bind(float weight, const AttachmentDescription& attachment, const glm::vec3
           std::span<const glm::mat4> bones, float to[4]) {
   glm::dvec3 place = attachment.position;
   if (displacement != glm::vec3(0.0f)) {  // p = a + R^-1 mu
-    const glm::dmat3 turn(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]));
+    const glm::dmat3 turn{glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)])};
     place += glm::inverse(turn) * glm::dvec3(displacement);
   }
   for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(double{weight} * place[i]);
@@ -105,6 +105,7 @@ void bind(float weight, const AttachmentDescription& attachment, const glm::vec3
 
 void lay_out_muscles(std::span<const MuscleDescription> descriptions, std::span<const glm::mat4> rest_bones,
                      MuscleAsset& asset) {
+  asset.radius_count = kLanes;  // kernels read one number before a row
   for (const MuscleDescription& description : descriptions) {
     MuscleLayout muscle;
     muscle.name = description.name;
@@ -149,7 +150,7 @@ void lay_out_muscles(std::span<const MuscleDescription> descriptions, std::span<
     asset.muscles.push_back(std::move(muscle));
   }
   for (const CircleTable& table : asset.circle_tables) {
-    asset.circles.push_back({table.cosines.data(), table.sines.data()});
+    asset.circles.push_back({table.cosines.data() + kLanes, table.sines.data() + kLanes});
   }
   assign_lanes(asset);
 }
