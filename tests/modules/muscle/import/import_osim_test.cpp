@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/animation/joint_model_reader.hpp"
+#include "engine/content/file_text.hpp"
 #include "engine/content/json_reader.hpp"
 #include "modules/muscle/import/osim_reader.hpp"
 #include "tests/modules/muscle/import/small_model.hpp"
@@ -155,6 +156,23 @@ TEST_P(RealModels, BecomeCharacters) {
     }
   }
   EXPECT_EQ(warned, GetParam().warned);
+}
+
+// The file that ships is what the import makes today.
+TEST(ImportOsim, TheShippedCharacterIsUpToDate) {
+  FASCICLE_SKIP_WITHOUT_DATA("opensim/gait2392.osim");
+  const Result<OsimModel> model = read_osim(test::data_folder() / "opensim" / "gait2392.osim");
+  ASSERT_TRUE(model.ok());
+  ImportOptions options;
+  options.name = "gait2392";
+  options.geometry_folder = test::data_folder() / "opensim" / "Geometry";
+  options.geometry_prefix = "data:opensim/Geometry/";
+  const Result<std::string> text = import_character(*model, options);
+  const auto shipped = read_text_file(std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "characters" / "gait2392" /
+                                      "gait2392.character.json");
+  ASSERT_TRUE(text.ok() && shipped.ok());
+  EXPECT_TRUE(*text == *shipped) << "make it anew: fascicle-cook import-osim gait2392.osim --out "
+                                    "content/characters/gait2392/gait2392.character.json";
 }
 
 INSTANTIATE_TEST_SUITE_P(ImportOsim, RealModels,
