@@ -81,9 +81,15 @@ void sample_clip(const Clip& clip, float time, std::span<Trs> pose) {
     const KeySpan keys = find_keys(times, time);
     Trs& bone = pose[static_cast<std::size_t>(channel.bone)];
     switch (channel.target) {
-      case ClipTarget::kTranslation: bone.translation = interpolate_vector(channel, values, keys); break;
-      case ClipTarget::kRotation: bone.rotation = interpolate_rotation(channel, values, keys); break;
-      case ClipTarget::kScale: bone.scale = interpolate_vector(channel, values, keys); break;
+      case ClipTarget::kTranslation:
+        bone.translation = interpolate_vector(channel, values, keys);
+        break;
+      case ClipTarget::kRotation:
+        bone.rotation = interpolate_rotation(channel, values, keys);
+        break;
+      case ClipTarget::kScale:
+        bone.scale = interpolate_vector(channel, values, keys);
+        break;
     }
   }
 }

@@ -28,17 +28,18 @@ struct ClipChannel {
 
 struct Clip {
   std::string name;
-  float start = 0.0f;              // s, the first key of all channels
-  float end = 0.0f;                // s, the last
+  float start = 0.0f;  // s, the first key of all channels
+  float end = 0.0f;    // s, the last
   std::vector<ClipChannel> channels;
-  std::vector<float> times;        // s
-  std::vector<glm::vec4> values;   // xyz for translation (m) and scale; xyzw, unit, for rotation
+  std::vector<float> times;       // s
+  std::vector<glm::vec4> values;  // xyz for translation (m) and scale; xyzw, unit, for rotation
 
   float duration() const { return end - start; }
 };
 
 // Writes the clip's pose at `time` (s, on the clip's own axis from start to end; outside the nearest key holds) to the
-// bones that it moves and leaves the others alone. Rotations come out unit. Channels of bones outside `pose` are left out.
+// bones that it moves and leaves the others alone. Rotations come out unit. Channels of bones outside `pose` are left
+// out.
 void sample_clip(const Clip& clip, float time, std::span<Trs> pose);
 
 // `time` (s since the clip's start) brought into [0, duration]: wrapped around where `loop`, else clamped.

@@ -19,14 +19,14 @@ namespace fascicle {
 // Immutable, shared by all characters that wear it.
 struct SkinAsset {
   std::string name;
-  std::vector<glm::vec3> positions;      // m, bind space
-  std::vector<glm::vec3> normals;        // unit
-  std::vector<std::uint32_t> indices;    // three a triangle
-  std::vector<glm::u16vec4> joints;      // indices into the two arrays below
-  std::vector<glm::vec4> weights;        // sum 1
-  std::vector<std::int32_t> joint_bones; // joint -> bone of the skeleton
-  std::vector<glm::mat4> inverse_binds;  // bind space -> joint's frame
-  glm::vec4 base_colour{1.0f};           // linear RGBA
+  std::vector<glm::vec3> positions;       // m, bind space
+  std::vector<glm::vec3> normals;         // unit
+  std::vector<std::uint32_t> indices;     // three a triangle
+  std::vector<glm::u16vec4> joints;       // indices into the two arrays below
+  std::vector<glm::vec4> weights;         // sum 1
+  std::vector<std::int32_t> joint_bones;  // joint -> bone of the skeleton
+  std::vector<glm::mat4> inverse_binds;   // bind space -> joint's frame
+  glm::vec4 base_colour{1.0f};            // linear RGBA
 
   std::size_t size() const { return positions.size(); }
 };
@@ -40,7 +40,8 @@ struct SkinnedSurface {
 SkinnedSurface make_skinned_surface(const SkinAsset& asset);
 
 // joint_matrices[j] = world[joint_bones[j]] * inverse_binds[j].
-void compute_joint_matrices(const SkinAsset& asset, std::span<const glm::mat4> world, std::span<glm::mat4> joint_matrices);
+void compute_joint_matrices(const SkinAsset& asset, std::span<const glm::mat4> world,
+                            std::span<glm::mat4> joint_matrices);
 
 // Skins vertices [first, last) into the same places of `positions` and `normals`. Normals use the blended matrix's
 // upper 3x3 part, which is exact for rigid bones with uniform scale.

@@ -12,7 +12,8 @@ namespace fascicle {
 std::string_view closest_name(std::string_view name, std::span<const std::string_view> candidates);
 std::string_view closest_name(std::string_view name, std::span<const std::string> candidates);
 
-// A remedy for an unknown name: "did you mean 'X'?" where one is close, else "known KIND: A, B, C, ..." (at most twelve).
+// A remedy for an unknown name: "did you mean 'X'?" where one is close, else "known KIND: A, B, C, ..." (at most
+// twelve).
 std::string suggest_name(std::string_view name, std::span<const std::string_view> candidates, std::string_view kind);
 std::string suggest_name(std::string_view name, std::span<const std::string> candidates, std::string_view kind);
 

@@ -11,7 +11,8 @@
 namespace fascicle {
 
 // The file's bytes. Errors: it is absent, a folder, unreadable, or larger than `max_bytes`.
-Result<std::string> read_text_file(const std::filesystem::path& file, std::uintmax_t max_bytes = std::uintmax_t{1} << 30);
+Result<std::string> read_text_file(const std::filesystem::path& file,
+                                   std::uintmax_t max_bytes = std::uintmax_t{1} << 30);
 
 // Writes beside the file, then renames, so that a reader sees the old text or the new one and never a half; makes
 // missing folders. Returns empty diagnostics, or what went wrong.

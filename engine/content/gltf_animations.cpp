@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <set>
 #include <tuple>
+
+#include <glm/geometric.hpp>
 
 #include "engine/content/gltf_accessors.hpp"
 #include "engine/content/gltf_source.hpp"

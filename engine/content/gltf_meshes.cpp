@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include "engine/content/gltf_accessors.hpp"

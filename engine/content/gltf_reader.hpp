@@ -25,11 +25,11 @@ namespace fascicle {
 
 // A mesh as one node carries it, all its triangle primitives joined.
 struct GltfMesh {
-  std::string name;        // the node's name, which is unique
-  std::string mesh_name;   // the mesh's own name, may be shared or empty
-  std::int32_t bone = -1;  // the node. Without a skin the vertices are in its frame
-  std::int32_t skin = -1;  // index into `skins`, or -1. With a skin the vertices are in the bind space
-  TriangleMesh geometry;   // normals always present: computed where the file has none
+  std::string name;                  // the node's name, which is unique
+  std::string mesh_name;             // the mesh's own name, may be shared or empty
+  std::int32_t bone = -1;            // the node. Without a skin the vertices are in its frame
+  std::int32_t skin = -1;            // index into `skins`, or -1. With a skin the vertices are in the bind space
+  TriangleMesh geometry;             // normals always present: computed where the file has none
   std::vector<glm::u16vec4> joints;  // indices into the skin's joints; empty without skin
   std::vector<glm::vec4> weights;    // sum 1; the four largest influences of those in the file
   glm::vec4 base_colour{1.0f};       // linear RGBA of the first primitive's material

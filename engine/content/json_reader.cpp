@@ -20,6 +20,8 @@ using detail::kNoJson;
 
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 constexpr std::size_t kMaxShown = 40;  // bytes of an offending value in a message
+// Enough to mend a file by; each costs a walk along its line, and a hostile file has millions.
+constexpr std::size_t kMaxErrors = 200;
 constexpr float kUnitTolerance = 1e-3f;
 
 std::string_view kind_words(JsonKind kind) {
@@ -168,15 +170,18 @@ Diagnostic JsonNode::where(std::string cause, std::string remedy) const {
 }
 
 void JsonNode::error(Diagnostics& diagnostics, std::string cause, std::string remedy) const {
+  if (diagnostics.errors.size() >= kMaxErrors) return;
   diagnostics.errors.push_back(where(std::move(cause), std::move(remedy)));
 }
 
 void JsonNode::warning(Diagnostics& diagnostics, std::string cause, std::string remedy) const {
+  if (diagnostics.warnings.size() >= kMaxErrors) return;
   diagnostics.warnings.push_back(where(std::move(cause), std::move(remedy)));
 }
 
 void JsonNode::error_at_key(Diagnostics& diagnostics, std::string cause, std::string remedy) const {
   if (key().data() == nullptr) return error(diagnostics, std::move(cause), std::move(remedy));
+  if (diagnostics.errors.size() >= kMaxErrors) return;
   diagnostics.errors.push_back(
       tree_->diagnostic(index_, value_of(tree_, index_).key_begin, std::move(cause), std::move(remedy)));
 }

@@ -73,7 +73,11 @@ class JsonNode {
     Iterator(const detail::JsonTree* tree, std::uint32_t index) : tree_(tree), index_(index) {}
     JsonNode operator*() const { return {tree_, index_}; }
     Iterator& operator++();
-    Iterator operator++(int) { Iterator old = *this; ++*this; return old; }
+    Iterator operator++(int) {
+      Iterator old = *this;
+      ++*this;
+      return old;
+    }
     bool operator==(const Iterator& other) const { return index_ == other.index_; }
 
    private:
@@ -84,9 +88,9 @@ class JsonNode {
   Iterator end() const { return {}; }
   std::size_t size() const;
 
-  std::string_view key() const;                 // name in the parent object, empty for array elements and the root
-  JsonNode member(std::string_view name) const; // missing when there is none
-  JsonNode element(std::size_t index) const;    // missing when out of range; walks the list
+  std::string_view key() const;                  // name in the parent object, empty for array elements and the root
+  JsonNode member(std::string_view name) const;  // missing when there is none
+  JsonNode element(std::size_t index) const;     // missing when out of range; walks the list
 
   std::string_view text() const;  // as it stands in the file
   int line() const;
@@ -94,7 +98,7 @@ class JsonNode {
   std::string path() const;  // JSON pointer: "/muscles/3/origin"; empty for the root
   const std::string& file() const;
 
-  // This place, with a cause and a remedy.
+  // This place, with a cause and a remedy. Beyond 200 errors in `diagnostics` no more are added.
   Diagnostic where(std::string cause = {}, std::string remedy = {}) const;
   void error(Diagnostics& diagnostics, std::string cause, std::string remedy) const;
   void warning(Diagnostics& diagnostics, std::string cause, std::string remedy) const;
@@ -140,7 +144,8 @@ class JsonNode {
 class JsonDocument {
  public:
   JsonNode root() const;
-  // The value at a JSON pointer such as "/muscles/3/name" (without escapes), or where there is none its nearest ancestor.
+  // The value at a JSON pointer such as "/muscles/3/name" (without escapes), or where there is none its nearest
+  // ancestor.
   JsonNode nearest(std::string_view pointer) const;
   const std::string& file() const;
   std::string_view text() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 

@@ -9,8 +9,8 @@
 
 namespace fascicle {
 
-// "FILE.vtp", or "FILE.glb#NAME" / "FILE.gltf#NAME", where NAME is that of a mesh or of the node that carries it; without
-// #NAME all meshes of the file are joined. glTF meshes come in the file's rest space (node transforms applied).
+// "FILE.vtp", or "FILE.glb#NAME" / "FILE.gltf#NAME", where NAME is that of a mesh or of the node that carries it;
+// without #NAME all meshes of the file are joined. glTF meshes come in the file's rest space (node transforms applied).
 Result<TriangleMesh> read_mesh(const std::string& file);
 
 // The same from a glTF file that was read already: one mesh by name, or with an empty name all of them joined.

@@ -6,12 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <glm/geometric.hpp>
 #include <initializer_list>
-#include <pugixml.hpp>
 #include <span>
 #include <string_view>
 #include <type_traits>
+
+#include <glm/geometric.hpp>
+#include <pugixml.hpp>
 
 #include "engine/content/file_text.hpp"
 #include "engine/content/text_position.hpp"

@@ -18,9 +18,10 @@ class FileWatcher {
   void watch(std::vector<std::filesystem::path> files);
 
   // Appends to `changed` the files whose content differs from what was last reported (or, at first, seen), and returns
-  // whether there were any. A file is reported once it has been the same, and not empty, for two polls in a row, so that
-  // half-written ones are left alone; one that vanished is reported when it is back with another content. Compares
-  // size, time in ns and inode first; reads a hash of the content only when these differ or are too recent to be trusted.
+  // whether there were any. A file is reported once it has been the same, and not empty, for two polls in a row, so
+  // that half-written ones are left alone; one that vanished is reported when it is back with another content. Compares
+  // size, time in ns and inode first; reads a hash of the content only when these differ or are too recent to be
+  // trusted.
   bool poll(std::vector<std::filesystem::path>& changed);
 
   // Watched files that are absent right now, as of the last poll.
@@ -36,10 +37,10 @@ class FileWatcher {
   };
   struct Entry {
     std::filesystem::path file;
-    Stamp stamp;                     // at the last poll
-    std::uint64_t reported_hash = 0; // content that the owner knows; 0: none
-    std::uint64_t pending_hash = 0;  // content seen at the last poll, 0: none
-    bool settled = false;            // the stamp is old enough and its content is the reported one
+    Stamp stamp;                      // at the last poll
+    std::uint64_t reported_hash = 0;  // content that the owner knows; 0: none
+    std::uint64_t pending_hash = 0;   // content seen at the last poll, 0: none
+    bool settled = false;             // the stamp is old enough and its content is the reported one
   };
   static Stamp read_stamp(const std::filesystem::path& file);
 

@@ -25,7 +25,8 @@ void check(const fascicle::GltfFile& file) {
     const std::size_t count = mesh.geometry.positions.size();
     require(mesh.geometry.normals.size() == count);
     for (const std::uint32_t index : mesh.geometry.indices) require(index < count);
-    for (const glm::vec3& n : mesh.geometry.normals) require(std::abs(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f) < 1e-3f);
+    for (const glm::vec3& n : mesh.geometry.normals)
+      require(std::abs(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f) < 1e-3f);
     if (mesh.skin < 0) continue;
     require(mesh.joints.size() == count && mesh.weights.size() == count);
     const std::size_t joints = file.skins[static_cast<std::size_t>(mesh.skin)].bones.size();
@@ -35,7 +36,8 @@ void check(const fascicle::GltfFile& file) {
   }
   for (const fascicle::Clip& clip : file.clips) {
     std::vector<fascicle::Trs> pose = file.skeleton.rest_local;
-    for (const float fraction : {0.0f, 0.3f, 1.0f}) fascicle::sample_clip(clip, clip.start + fraction * clip.duration(), pose);
+    for (const float fraction : {0.0f, 0.3f, 1.0f})
+      fascicle::sample_clip(clip, clip.start + fraction * clip.duration(), pose);
     for (const fascicle::Trs& trs : pose) {
       require(std::isfinite(trs.translation.x) && std::isfinite(trs.rotation.w) && std::isfinite(trs.scale.z));
     }

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/animation/gltf_skins.hpp"
 #include "tests/support/test_data.hpp"

@@ -39,13 +39,15 @@ struct Triangle {
     builder.vec4(rotations);                                                                        // 6
     builder.section(
         "meshes",
-        R"([{"name": "tri", "primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}, "indices": 1}]}])");
+        R"([{"name": "tri", "primitives": [{)"
+        R"("attributes": {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}, "indices": 1}]}])");
     builder.section("nodes",
                     R"([{"name": "root", "children": [1]}, {"name": "tip"}, {"name": "body", "mesh": 0, "skin": 0}])");
     builder.section("skins", R"([{"joints": [0, 1], "inverseBindMatrices": 4}])");
     builder.section(
         "animations",
-        R"([{"name": "turn", "samplers": [{"input": 5, "output": 6}], "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}]}])");
+        R"([{"name": "turn", "samplers": [{"input": 5, "output": 6}], )"
+        R"("channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}]}])");
     return builder;
   }
 };
@@ -235,7 +237,8 @@ TEST(GltfErrors, SparseAccessorsAreChecked) {
     builder.accessor(
         base, GltfBuilder::kFloat, 3, "VEC3",
         fmt::format(
-            R"(, "sparse": {{"count": {}, "indices": {{"bufferView": {}, "componentType": {}}}, "values": {{"bufferView": {}}}}})",
+            R"(, "sparse": {{"count": {}, "indices": {{"bufferView": {}, "componentType": {}}}, )"
+             R"("values": {{"bufferView": {}}}}})",
             count, indices, type, values));
     builder.section("meshes", R"([{"primitives": [{"attributes": {"POSITION": 0}}]}])");
     builder.section("nodes", R"([{"mesh": 0}])");

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
+
+#include <glm/geometric.hpp>
 
 #include "tests/engine/content/gltf_builder.hpp"
 #include "tests/support/test_data.hpp"
@@ -122,7 +123,8 @@ TEST(GltfReader, SparseValuesReplaceTheirBase) {
   const int indices = builder.view(std::vector<std::uint8_t>{0, 2});
   const int values = builder.view(std::vector<float>{0, 0, 5, 0, 6, 0});
   const std::string sparse = fmt::format(
-      R"(, "sparse": {{"count": 2, "indices": {{"bufferView": {}, "componentType": 5121}}, "values": {{"bufferView": {}}}}})",
+      R"(, "sparse": {{"count": 2, "indices": {{"bufferView": {}, "componentType": 5121}}, )"
+      R"("values": {{"bufferView": {}}}}})",
       indices, values);
   builder.accessor(base, GltfBuilder::kFloat, 3, "VEC3", sparse);
   builder.accessor(-1, GltfBuilder::kFloat, 3, "VEC3", sparse);  // over zeros
@@ -214,8 +216,10 @@ TEST(GltfReader, AnimationsOfAllKinds) {
   builder.section("animations",
                   R"([{"samplers": [{"input": 0, "output": 1}, {"input": 0, "output": 2, "interpolation": "STEP"},
       {"input": 0, "output": 3, "interpolation": "CUBICSPLINE"}, {"input": 4, "output": 4}],
-      "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}, {"sampler": 1, "target": {"node": 0, "path": "rotation"}},
-                   {"sampler": 2, "target": {"node": 0, "path": "scale"}}, {"sampler": 3, "target": {"node": 0, "path": "weights"}}]},
+      "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}},
+                   {"sampler": 1, "target": {"node": 0, "path": "rotation"}},
+                   {"sampler": 2, "target": {"node": 0, "path": "scale"}},
+                   {"sampler": 3, "target": {"node": 0, "path": "weights"}}]},
       {"name": "empty", "samplers": [], "channels": []}])");
   const GltfFile file = parse(builder.gltf());
   ASSERT_EQ(file.clips.size(), 1u);

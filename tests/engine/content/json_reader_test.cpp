@@ -86,6 +86,16 @@ TEST(JsonNode, VectorsAndQuaternionsAreChecked) {
                           "[0, 0, 0, 1] turns nothing"));
 }
 
+TEST(JsonNode, AMillionErrorsOnOneLineEndSoon) {
+  std::string text = "[true";
+  for (int i = 0; i < 1000000; ++i) text += ",true";
+  const JsonDocument document = parse(text + "]");
+  Diagnostics diagnostics;
+  std::vector<float> numbers;
+  EXPECT_FALSE(document.root().read(numbers, diagnostics));
+  EXPECT_EQ(diagnostics.errors.size(), 200u);
+}
+
 TEST(JsonNode, ValuesAreRead) {
   const JsonDocument document = parse(R"({"d": 0.1, "i": -3, "u": 4294967295, "b": true, "s": "t", "v": [1, 2, 3],
                                           "q": [0, 0, 0.6, 0.8], "o": 7, "l": [1, 2]})");
