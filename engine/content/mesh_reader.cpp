@@ -110,7 +110,10 @@ Result<TriangleMesh> read_mesh(const std::string& file) {
   const MeshReference reference = split_mesh_reference(file);
   if (is_gltf(reference.file)) {
     const Result<GltfFile> gltf = read_gltf(reference.file);
-    return gltf ? extract_mesh(*gltf, reference.name) : gltf.diagnostics();
+    if (!gltf) return gltf.diagnostics();
+    Result<TriangleMesh> mesh = extract_mesh(*gltf, reference.name);
+    mesh.diagnostics().append(gltf.diagnostics());  // warnings
+    return mesh;
   }
   if (lower_extension(reference.file) == ".vtp") return read_vtp(reference.file);
   return Diagnostic{file,
