@@ -82,7 +82,8 @@ std::vector<std::int32_t> joints_of_bones(const JointModel& model, std::span<con
     const auto child = static_cast<std::size_t>(joint.child);
     assert(joint.parent >= 0 && joint.child >= 0 && child < bones.size());
     if (child == 0) {
-      faults.push_back({JointFault::At::kJoint, j, fmt::format("the joint '{}' moves the ground '{}'", joint.name, bones[0]),
+      faults.push_back({JointFault::At::kJoint, j,
+                        fmt::format("the joint '{}' moves the ground '{}'", joint.name, bones[0]),
                         "make the ground its parent"});
     } else if (joint_of[child] >= 0) {
       faults.push_back({JointFault::At::kJoint, j,
@@ -237,7 +238,8 @@ RigidTransform evaluate_joint(const JointModel& model, std::span<const double> v
   for (const JointAxis& axis : joint.rotations) {
     moved.rotation = moved.rotation * rotation_about(axis.direction, axis_value(model, values, axis));
   }
-  for (const JointAxis& axis : joint.translations) moved.translation += axis_value(model, values, axis) * axis.direction;
+  for (const JointAxis& axis : joint.translations)
+    moved.translation += axis_value(model, values, axis) * axis.direction;
   return joint.parent_frame * moved * joint.child_frame_inverse;
 }
 

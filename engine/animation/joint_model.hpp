@@ -45,7 +45,7 @@ RigidTransform inverse(const RigidTransform& transform);
 glm::dmat3 rotation_from_xyz(const glm::dvec3& angles);
 
 struct JointCoordinate {
-  // What its value measures: rad, m, or (coupled) neither alone, as it drives its axes through other functions than 1:1.
+  // What its value measures: rad, m, or (coupled) neither alone, as it moves no axis one to one.
   enum class Kind { kRotation, kTranslation, kCoupled };
 
   std::string name;
@@ -98,7 +98,7 @@ struct JointModel {
   std::int32_t find_coordinate(std::string_view name) const;  // index, or -1
 };
 
-// A fault that `finish_joint_model` found, with the joint, coordinate or bone (as numbered by the caller) that it is at.
+// A fault that `finish_joint_model` found, and the joint, coordinate or bone (as numbered by the caller) it is at.
 struct JointFault {
   enum class At { kBone, kJoint, kCoordinate };
   At at = At::kBone;
@@ -109,8 +109,8 @@ struct JointFault {
 
 // Makes a model whole whose `bodies`, `coordinates` and `joints` (in any order, frames as written) the caller has
 // filled in: sorts the bones `bones` (0: the ground) so that parents stand before children, sorts and renumbers joints
-// and bodies to match, and makes frames, axis directions and the skeleton at rest. Where it returns faults the model is unusable: a
-// bone with no joint or with two, a cycle, an axis of no length, a coupling that runs in circles.
+// and bodies to match, and makes frames, axis directions and the skeleton at rest. Where it returns faults the model is
+// unusable: a // bone with no joint or with two, a cycle, an axis of no length, a coupling that runs in circles.
 std::vector<JointFault> finish_joint_model(JointModel& model, std::vector<std::string> bones);
 
 // The value that coordinate `index` really has when the free ones are set to `values` (one a coordinate, rad or m):

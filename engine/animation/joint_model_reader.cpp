@@ -128,7 +128,8 @@ class JointModelReader {
     read_frame(object.optional("parent_frame"), joint.parent_translation, joint.parent_orientation);
     read_frame(object.optional("child_frame"), joint.child_translation, joint.child_orientation);
     for (const JsonNode axis : object.optional_array("rotations", 0, 3)) joint.rotations.push_back(read_axis(axis));
-    for (const JsonNode axis : object.optional_array("translations", 0, 3)) joint.translations.push_back(read_axis(axis));
+    for (const JsonNode axis : object.optional_array("translations", 0, 3))
+      joint.translations.push_back(read_axis(axis));
     object.finish();
     model_.joints.push_back(std::move(joint));
     joint_nodes_.push_back(node);
@@ -153,7 +154,8 @@ class JointModelReader {
     if (const JsonNode function = object.optional("function"); function.exists()) {
       read_function(function, axis.function);
     } else if (axis.coordinate < 0 && object.valid()) {
-      node.error(diagnostics_, "an axis with neither a coordinate nor a function", "name a coordinate, or leave the axis out");
+      node.error(diagnostics_, "an axis with neither a coordinate nor a function",
+                 "name a coordinate, or leave the axis out");
     }
     object.finish();
     return axis;
@@ -190,7 +192,8 @@ class JointModelReader {
       if (!values.empty() && values.size() <= 32) {
         out = ScalarFunction::polynomial(values);
       } else {
-        polynomial.error(diagnostics_, fmt::format("{} coefficients", values.size()), "give 1 to 32, the highest power first");
+        polynomial.error(diagnostics_, fmt::format("{} coefficients", values.size()),
+                         "give 1 to 32, the highest power first");
       }
     }
     if (spline.exists()) read_knots(spline, true, out);

@@ -24,7 +24,8 @@ namespace {
 
 std::string function_text(const ScalarFunction& function) {
   const auto knots = [&](const char* kind) {
-    return fmt::format("{{ \"{}\": {{ \"x\": {},\n@\"y\": {} }} }}", kind, json_list(function.x()), json_list(function.y()));
+    return fmt::format("{{ \"{}\": {{ \"x\": {},\n@\"y\": {} }} }}", kind, json_list(function.x()),
+                       json_list(function.y()));
   };
   switch (function.kind()) {
     case ScalarFunction::Kind::kConstant:
@@ -145,7 +146,8 @@ class JointModelWriter {
         const JointCoordinate& driver = model_.coordinates[static_cast<std::size_t>(axis.coordinate)];
         content += ", \"coordinate\": " + quote_json(driver.name);
       }
-      if (axis.coordinate < 0 || !is_identity(axis.function)) content += ", \"function\": " + function_text(axis.function);
+      if (axis.coordinate < 0 || !is_identity(axis.function))
+        content += ", \"function\": " + function_text(axis.function);
       lines.push_back(content + " }");
     }
     if (lines.empty()) return;

@@ -3,7 +3,7 @@
 //
 // A looped motion plays one cycle of the record: the stretch of at least 0.6 s whose ends are most alike in angles and
 // angular velocities. What difference remains between its ends is spread evenly over the cycle, so that nothing jumps.
-// Where the root travels over the ground, the travel goes on from one cycle to the next; played in place, it is taken out.
+// Where the root travels over the ground, the travel goes on from cycle to cycle; played in place, it is taken out.
 #pragma once
 
 #include <cstddef>

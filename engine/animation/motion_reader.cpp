@@ -120,7 +120,8 @@ class MotionParser {
     while (!ended && next_line(line)) {
       line = trimmed(line);
       ended = lower(line) == "endheader";
-      if (motion_.name.empty() && line_ == 1 && line.find('=') == std::string_view::npos) motion_.name = std::string(line);
+      if (motion_.name.empty() && line_ == 1 && line.find('=') == std::string_view::npos)
+        motion_.name = std::string(line);
       if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
         header_[lower(trimmed(line.substr(0, equals)))] = std::string(trimmed(line.substr(equals + 1)));
       }
@@ -131,7 +132,8 @@ class MotionParser {
       return false;
     }
     if (const auto type = header_.find("datatype"); type != header_.end() && lower(type->second) != "double") {
-      error(line_, 1, {}, fmt::format("DataType is {}", type->second), "give a table of plain numbers (DataType=double)");
+      error(line_, 1, {}, fmt::format("DataType is {}", type->second),
+            "give a table of plain numbers (DataType=double)");
       return false;
     }
     const auto degrees = header_.find("indegrees");
@@ -190,7 +192,8 @@ class MotionParser {
       return false;
     }
     if (!unknown.empty()) {
-      warn(line_, "columns that the model does not know are left out: " + joined(unknown), "check their names if they matter");
+      warn(line_, "columns that the model does not know are left out: " + joined(unknown),
+           "check their names if they matter");
     }
     report_missing(driven);
     return true;
@@ -203,7 +206,8 @@ class MotionParser {
       if (!driven[c] && !coordinate.locked && coordinate.driver < 0) missing.push_back(coordinate.name);
     }
     if (!missing.empty()) {
-      warn(line_, "coordinates without a column keep their defaults: " + joined(missing), "add columns if they should move");
+      warn(line_, "coordinates without a column keep their defaults: " + joined(missing),
+           "add columns if they should move");
     }
   }
 
@@ -226,7 +230,8 @@ class MotionParser {
   void read_row(const std::vector<Field>& fields) {
     const std::string path = fmt::format("row {}", rows_);
     if (fields.size() != columns_.size()) {
-      error(line_, 1, path, fmt::format("{} values, but line {} names {} columns", fields.size(), column_line_, columns_.size()),
+      error(line_, 1, path,
+            fmt::format("{} values, but line {} names {} columns", fields.size(), column_line_, columns_.size()),
             "give one value a column");
       return;
     }
@@ -240,7 +245,8 @@ class MotionParser {
       const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (code != std::errc{} || end != text.data() + text.size() || !(std::abs(value) <= kLargestValue)) {
         error(line_, fields[f].column, fmt::format("{}, column {}", path, columns_[f]),
-              fmt::format("'{}' is not a finite number within 1e6", fields[f].text.substr(0, 40)), "replace or interpolate it");
+              fmt::format("'{}' is not a finite number within 1e6", fields[f].text.substr(0, 40)),
+              "replace or interpolate it");
         return;
       }
       if (f == 0) time = value;
@@ -250,7 +256,8 @@ class MotionParser {
       row[target] = in_degrees_ && angle ? value * (std::numbers::pi / 180.0) : value;
     }
     if (!motion_.times.empty() && time - motion_.times.back() < kShortestStep) {
-      error(line_, fields[0].column, path, fmt::format("the time {} does not rise above the one before, {}", time, motion_.times.back()),
+      error(line_, fields[0].column, path,
+            fmt::format("the time {} does not rise above the one before, {}", time, motion_.times.back()),
             "sort the rows by time and remove doubles");
       return;
     }

@@ -16,7 +16,7 @@ struct JointModel;
 // Reads a motion for `model`. Columns are matched to coordinates by name, or by OpenSim's paths
 // ("/jointset/hip_r/hip_flexion_r/value"; its speeds are left out). With `inDegrees=yes` rotational coordinates are
 // converted to radians, and only these. Warnings: columns that are no coordinate of the model, coordinates without a
-// column (they keep their defaults), row or column counts that the header states wrongly, a missing inDegrees (taken as no).
+// column (they keep their defaults), row or column counts that the header states wrongly, no inDegrees (taken as no).
 // Errors, each with its line: no header, no column `time` in front, no known column, a name twice, rows with too few or
 // too many values, values that aren't finite numbers, times that do not rise, vectors (DataType other than double).
 Result<Motion> read_motion(const std::filesystem::path& file, const JointModel& model);

@@ -71,7 +71,8 @@ int print_counts(const std::string& name) {
 
 void add_counts(CLI::App& program, Command& chosen) {
   auto name = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("counts", "Print how many sections and vertices a character's muscles have, by level of detail");
+  CLI::App* command = program.add_subcommand(
+      "counts", "Print how many sections and vertices a character's muscles have, by level of detail");
   command->add_option("CHARACTER", *name, "A character's name (walker) or its file")->required();
   command->callback([name, &chosen] { chosen = [name] { return print_counts(*name); }; });
 }

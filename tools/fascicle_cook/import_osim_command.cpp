@@ -28,7 +28,7 @@ void print(const Diagnostics& diagnostics) {
   for (const Diagnostic& warning : diagnostics.warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
 }
 
-// How a character file in `from` names files in `folder`: by data: where they are part of the data folder, else relatively.
+// How a character file in `from` names files in `folder`: by data: where they are in the data folder, else relatively.
 std::string prefix_of(const fs::path& folder, const fs::path& from) {
   std::error_code error;
   const fs::path target = fs::weakly_canonical(folder, error);

@@ -8,7 +8,8 @@
 
 int main(int argc, char** argv) {
   using namespace fascicle;
-  CLI::App program("Makes content for Fascicle from other sources, and tells what content amounts to.", "fascicle-cook");
+  CLI::App program("Makes content for Fascicle from other sources, and tells what content amounts to.",
+                   "fascicle-cook");
   program.require_subcommand(1);
   program.footer("Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage.");
   cook::Command chosen;

@@ -68,7 +68,8 @@ class CharacterImport {
   void write_source() {
     std::string source = options_.source;
     if (source.empty()) {
-      source = fmt::format("OpenSim model {} ({})", model_.name, std::filesystem::path(model_.file).filename().string());
+      source =
+          fmt::format("OpenSim model {} ({})", model_.name, std::filesystem::path(model_.file).filename().string());
       if (!model_.credits.empty()) source += ". " + model_.credits;
     }
     line(fmt::format("\"source\": {},", quote_json(source)));
@@ -148,7 +149,8 @@ class CharacterImport {
     }
     if (path.size() < 2 || (path.size() == 2 && glm::distance(place(path[0]), place(path[1])) <= kSamePlace)) {
       diagnostics_.errors.push_back({model_.file, muscle.line, muscle.column, muscle.name,
-                                     "in the default pose the path has no length", "give it an origin and an insertion apart"});
+                                     "in the default pose the path has no length",
+                                     "give it an origin and an insertion apart"});
       path.clear();
     }
     if (!kept.empty()) notes.push_back("conditional points stay on: " + joined(kept));
@@ -164,13 +166,15 @@ class CharacterImport {
   }
 
   std::string attachment(const OsimPathPoint& point) const {
-    return fmt::format("{{ \"bone\": {}, \"position\": {} }}", quote_json(bone_name(point.body)), json_list(point.location));
+    return fmt::format("{{ \"bone\": {}, \"position\": {} }}", quote_json(bone_name(point.body)),
+                       json_list(point.location));
   }
 
   std::string muscle_text(const OsimMuscle& muscle) {
     if (!(muscle.max_isometric_force > 0.0)) {
       diagnostics_.errors.push_back({model_.file, muscle.line, muscle.column, muscle.name,
-                                     "its max_isometric_force is 0, so nothing says how thick it is", "give its force (N)"});
+                                     "its max_isometric_force is 0, so nothing says how thick it is",
+                                     "give its force (N)"});
     }
     const std::vector<const OsimPathPoint*> path = default_path(muscle);
     if (path.empty()) return {};
@@ -189,10 +193,11 @@ class CharacterImport {
       }
     }
     entry += indent + "\"insertion\": " + attachment(*path.back()) + ",";
-    entry += indent + fmt::format("\"max_isometric_force\": {}, \"optimal_fibre_length\": {}, \"tendon_slack_length\": {}, "
-                                  "\"pennation\": {} }}",
-                                  json_number(muscle.max_isometric_force), json_number(muscle.optimal_fibre_length),
-                                  json_number(muscle.tendon_slack_length), json_number(muscle.pennation));
+    entry += indent + fmt::format(
+                          "\"max_isometric_force\": {}, \"optimal_fibre_length\": {}, \"tendon_slack_length\": {}, "
+                          "\"pennation\": {} }}",
+                          json_number(muscle.max_isometric_force), json_number(muscle.optimal_fibre_length),
+                          json_number(muscle.tendon_slack_length), json_number(muscle.pennation));
     return entry;
   }
 

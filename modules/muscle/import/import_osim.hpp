@@ -2,8 +2,8 @@
 // the model's joints, bone meshes and muscles. Attachments are the model's own figures in its bodies' frames.
 //
 // A character's path has fixed points only. Conditional points are taken in the state that they have at the
-// coordinates' defaults (kept where active, left out where not), moving points at their place there, and wrap objects are
-// left out: one warning a muscle says which.
+// coordinates' defaults (kept where active, left out where not), moving points at their place there, and wrap objects
+// are left out: one warning a muscle says which.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,9 @@ namespace fascicle::muscle {
 
 struct ImportOptions {
   std::string name;                        // of the character; empty: the model's
-  std::filesystem::path geometry_folder;   // where the bone meshes are; those that aren't there are left out, with a warning
-  std::string geometry_prefix;             // put before a mesh's file name in the character file ("data:opensim/Geometry/")
+  std::filesystem::path
+      geometry_folder;          // where the bone meshes are; those that aren't there are left out, with a warning
+  std::string geometry_prefix;  // put before a mesh's file name in the character file ("data:opensim/Geometry/")
   std::string schema = "../../schema/character.schema.json";
   std::string source;                      // where the model is from; empty: its name, file and credits
   std::string licence;                     // empty: what the credits say, where they name a Creative Commons licence

@@ -79,7 +79,8 @@ void OsimFrames::collect_offsets(pugi::xml_node parent, const std::string& path)
     if (std::string_view(node.name()) != "PhysicalOffsetFrame") continue;
     const std::string name = path + "/" + name_of(node);
     if (!offsets_.emplace(name, Offset{node, false, std::nullopt}).second) {
-      fields_.error(node, fmt::format("the frame '{}' is there already", name), "give each frame of a component its own name");
+      fields_.error(node, fmt::format("the frame '{}' is there already", name),
+                    "give each frame of a component its own name");
       continue;
     }
     if (path.size() < 1000) collect_offsets(node.child("components"), name);
@@ -97,7 +98,8 @@ std::string OsimFrames::find_path(const std::string& text, const std::string& ow
 }
 
 std::optional<OsimFrame> OsimFrames::resolve(pugi::xml_node socket, const std::string& owner) {
-  const std::string text = split_words(socket.child_value()).empty() ? std::string() : split_words(socket.child_value())[0];
+  const std::string text =
+      split_words(socket.child_value()).empty() ? std::string() : split_words(socket.child_value())[0];
   const std::string path = text.empty() ? std::string() : find_path(text, owner);
   if (path.empty()) {
     fields_.error(socket, text.empty() ? "it names no frame" : fmt::format("there is no frame '{}'", text),

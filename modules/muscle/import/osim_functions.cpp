@@ -65,9 +65,10 @@ bool read_nested(XmlFields& fields, pugi::xml_node node, int depth, ScalarFuncti
     out = out.scaled(scale);
     return true;
   }
-  fields.error(node, fmt::format("the function {} is not supported", kind),
-               "use Constant, LinearFunction, PolynomialFunction, PiecewiseLinearFunction, SimmSpline or MultiplierFunction; "
-               "a SimmSpline through sampled values replaces most others");
+  fields.error(
+      node, fmt::format("the function {} is not supported", kind),
+      "use Constant, LinearFunction, PolynomialFunction, PiecewiseLinearFunction, SimmSpline or MultiplierFunction; "
+      "a SimmSpline through sampled values replaces most others");
   return false;
 }
 
@@ -82,6 +83,8 @@ pugi::xml_node find_function(pugi::xml_node owner, const char* wrapper) {
   return {};
 }
 
-bool read_function(XmlFields& fields, pugi::xml_node node, ScalarFunction& out) { return read_nested(fields, node, 0, out); }
+bool read_function(XmlFields& fields, pugi::xml_node node, ScalarFunction& out) {
+  return read_nested(fields, node, 0, out);
+}
 
 }  // namespace fascicle::muscle

@@ -79,13 +79,15 @@ class JointsReader {
       coordinate.minimum = range[0];
       coordinate.maximum = range[1];
       if (coordinate.name.empty() || joints_.find_coordinate(coordinate.name) >= 0) {
-        fields_.error(node, coordinate.name.empty() ? "a coordinate without a name"
-                                                    : fmt::format("the coordinate '{}' is there already", coordinate.name),
+        fields_.error(node,
+                      coordinate.name.empty() ? "a coordinate without a name"
+                                              : fmt::format("the coordinate '{}' is there already", coordinate.name),
                       "give each coordinate its own name");
       }
       if (prescribed) {
-        fields_.warning(node, fmt::format("the coordinate '{}' is prescribed by a function, which is left out", coordinate.name),
-                        "drive it by a motion");
+        fields_.warning(
+            node, fmt::format("the coordinate '{}' is prescribed by a function, which is left out", coordinate.name),
+            "drive it by a motion");
       }
       joints_.coordinates.push_back(std::move(coordinate));
       coordinate_nodes_.push_back(node);
@@ -118,7 +120,8 @@ class JointsReader {
   std::optional<OsimFrame> resolve_frame(pugi::xml_node joint, const char* socket, const std::string& path) {
     const pugi::xml_node node = joint.child(socket);
     if (node) return frames_.resolve(node, path);
-    fields_.error(joint, fmt::format("the joint '{}' has no {}", name_of(joint), socket), "name the frame that it joins");
+    fields_.error(joint, fmt::format("the joint '{}' has no {}", name_of(joint), socket),
+                  "name the frame that it joins");
     return std::nullopt;
   }
 
@@ -132,7 +135,8 @@ class JointsReader {
         if (joint_of(coordinate_nodes_[c]) == node) own.push_back(static_cast<std::int32_t>(c));
       }
       if (own.size() != known.axes.size()) {
-        fields_.error(node, fmt::format("a {} with {} coordinates", type, own.size()), fmt::format("give {}", known.axes.size()));
+        fields_.error(node, fmt::format("a {} with {} coordinates", type, own.size()),
+                      fmt::format("give {}", known.axes.size()));
         return;
       }
       for (std::size_t i = 0; i < own.size(); ++i) add_axis(known.axes[i], own[i], joint);
@@ -181,7 +185,8 @@ class JointsReader {
         fields_.error(axes[i], "an axis that depends on several coordinates", "name one coordinate");
         continue;
       }
-      if (!names.empty()) axis.coordinate = find_osim_coordinate(fields_, axes[i].child("coordinates"), names[0], joints_);
+      if (!names.empty())
+        axis.coordinate = find_osim_coordinate(fields_, axes[i].child("coordinates"), names[0], joints_);
       const pugi::xml_node function = find_function(axes[i], "function");
       if (function) {
         read_function(fields_, function, axis.function);
@@ -195,7 +200,7 @@ class JointsReader {
     }
   }
 
-  // OpenSim calls a coordinate rotational or translational where it moves an axis one to one; the first such axis decides.
+  // OpenSim calls a coordinate rotational or translational where it moves an axis one to one; the first such decides.
   static void note_kind(JointCoordinate& coordinate, const JointAxis& axis, bool turns) {
     const bool one_to_one = axis.function.kind() == ScalarFunction::Kind::kLinear &&
                             axis.function.coefficients()[0] == 1.0 && axis.function.coefficients()[1] == 0.0;
@@ -246,7 +251,8 @@ class JointsReader {
     for (const Joint& joint : joints_.joints) joined[static_cast<std::size_t>(joint.child)] = true;
     for (std::size_t b = 1; b < joined.size(); ++b) {
       if (joined[b]) continue;
-      fields_.warning(frames_.body_nodes()[b], fmt::format("the body '{}' has no joint; it is fixed to the ground", frames_.bodies()[b]),
+      fields_.warning(frames_.body_nodes()[b],
+                      fmt::format("the body '{}' has no joint; it is fixed to the ground", frames_.bodies()[b]),
                       "add a joint whose child it is");
       Joint joint;
       joint.name = frames_.bodies()[b] + "_to_ground";
@@ -271,7 +277,8 @@ void read_osim_joints(XmlFields& fields, pugi::xml_node model, OsimFrames& frame
   JointsReader(fields, model, frames, joints).read();
 }
 
-std::int32_t find_osim_coordinate(XmlFields& fields, pugi::xml_node at, const std::string& text, const JointModel& joints) {
+std::int32_t find_osim_coordinate(XmlFields& fields, pugi::xml_node at, const std::string& text,
+                                  const JointModel& joints) {
   const std::string name = text.substr(text.rfind('/') + 1);
   const std::int32_t coordinate = joints.find_coordinate(name);
   if (coordinate >= 0) return coordinate;

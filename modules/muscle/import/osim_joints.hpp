@@ -12,6 +12,7 @@ namespace fascicle::muscle {
 void read_osim_joints(XmlFields& fields, pugi::xml_node model, OsimFrames& frames, JointModel& joints);
 
 // The coordinate that a socket or a list names, by its name or its path; -1 with an error where there is none.
-std::int32_t find_osim_coordinate(XmlFields& fields, pugi::xml_node at, const std::string& text, const JointModel& joints);
+std::int32_t find_osim_coordinate(XmlFields& fields, pugi::xml_node at, const std::string& text,
+                                  const JointModel& joints);
 
 }  // namespace fascicle::muscle

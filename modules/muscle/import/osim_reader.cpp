@@ -60,7 +60,8 @@ class OsimReader {
   pugi::xml_node find_model(const pugi::xml_document& document) {
     const pugi::xml_node root = document.child("OpenSimDocument");
     if (!root) {
-      fields_.error(document.document_element(), "this is not an OpenSim document", "give a file whose root is OpenSimDocument");
+      fields_.error(document.document_element(), "this is not an OpenSim document",
+                    "give a file whose root is OpenSimDocument");
       return {};
     }
     const int version = root.attribute("Version").as_int(0);
@@ -118,8 +119,9 @@ class OsimReader {
       }
     }
     if (others > 0) {
-      fields_.warning(owner, fmt::format("{} piece{} of geometry that {} no mesh left out", others, others == 1 ? "" : "s",
-                                         others == 1 ? "is" : "are"),
+      fields_.warning(owner,
+                      fmt::format("{} piece{} of geometry that {} no mesh left out", others, others == 1 ? "" : "s",
+                                  others == 1 ? "is" : "are"),
                       "give a Mesh with a .vtp file to draw it");
     }
   }
@@ -172,7 +174,8 @@ class OsimReader {
     pugi::xml_node path = node.child("GeometryPath");
     if (!path) path = node.child("path").child("GeometryPath");
     if (!path) {
-      fields_.error(node, fmt::format("the muscle '{}' has no GeometryPath", muscle.name), "add one with at least two points");
+      fields_.error(node, fmt::format("the muscle '{}' has no GeometryPath", muscle.name),
+                    "add one with at least two points");
       return;
     }
     const std::vector<pugi::xml_node> points = elements(path.child("PathPointSet").child("objects"));
@@ -258,7 +261,8 @@ class OsimReader {
         continue;
       }
       read_function(fields_, function, point.moving[k]);
-      if (function.name() != std::string_view("Constant")) point.moving_coordinates[k] = read_coordinate(node, kSockets[k]);
+      if (function.name() != std::string_view("Constant"))
+        point.moving_coordinates[k] = read_coordinate(node, kSockets[k]);
     }
     // Its place at the coordinates' defaults is worked out once the joints are known to be right.
   }

@@ -14,10 +14,10 @@
 
 namespace fascicle::muscle {
 
-// Errors, all of the file in one go: not XML, not a model, older than version 4 (OpenSim 4 converts it by opening and
-// saving), unresolved frames and coordinates, bodies or joints in circles, unknown joints and functions, splines
-// whose x do not rise, numbers that aren't finite, muscles with fewer than two points, names twice. Warnings: what is left
-// out (other forces and constraints, prescribed coordinates, geometry that is no mesh).
+// Errors, all of the file in one go: not XML, not UTF-8, not a model, older than version 4 (OpenSim 4 converts it by
+// opening and saving), unresolved frames and coordinates, bodies or joints in circles, unknown joints and functions,
+// splines whose x do not rise, numbers that aren't finite, muscles with fewer than two points, names twice. Warnings:
+// what is left out (other forces and constraints, prescribed coordinates, geometry that is no mesh).
 Result<OsimModel> read_osim(const std::filesystem::path& file);
 Result<OsimModel> parse_osim(std::string text, std::string file_name);
 

@@ -40,7 +40,8 @@ std::string XmlFields::path(pugi::xml_node node) {
     if (std::string_view(node.name()) == "objects" || std::string_view(node.name()) == "OpenSimDocument") continue;
     std::string step = node.name();
     // A model's or a set's own name says nothing.
-    if (const std::string name = name_of(node); !name.empty() && node.parent().parent().parent().parent()) step += "[" + name + "]";
+    if (const std::string name = name_of(node); !name.empty() && node.parent().parent().parent().parent())
+      step += "[" + name + "]";
     path = path.empty() ? step : step + "/" + path;
   }
   return path;
@@ -79,7 +80,8 @@ bool XmlFields::numbers(pugi::xml_node parent, const char* child, std::size_t co
     values.push_back(value);
   }
   if (count != 0 && values.size() != count) {
-    error(node, fmt::format("{} number{}", values.size(), values.size() == 1 ? "" : "s"), fmt::format("give {}", count));
+    error(node, fmt::format("{} number{}", values.size(), values.size() == 1 ? "" : "s"),
+          fmt::format("give {}", count));
     return false;
   }
   out = std::move(values);
@@ -97,7 +99,8 @@ bool XmlFields::number_in(pugi::xml_node parent, const char* child, double min, 
   double value = out;
   if (!number(parent, child, value)) return false;
   if (value < min || value > max) {
-    error(parent.child(child), fmt::format("{} is out of range", value), fmt::format("give a number from {} to {}", min, max));
+    error(parent.child(child), fmt::format("{} is out of range", value),
+          fmt::format("give a number from {} to {}", min, max));
     return false;
   }
   out = value;
@@ -115,7 +118,8 @@ bool XmlFields::boolean(pugi::xml_node parent, const char* child, bool& out) {
   const pugi::xml_node node = parent.child(child);
   if (!node) return true;
   std::string text = child_text(parent, child);
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (text == "true" || text == "1") {
     out = true;
   } else if (text == "false" || text == "0") {
@@ -127,7 +131,9 @@ bool XmlFields::boolean(pugi::xml_node parent, const char* child, bool& out) {
   return true;
 }
 
-std::string child_text(pugi::xml_node parent, const char* child) { return std::string(trimmed(parent.child_value(child))); }
+std::string child_text(pugi::xml_node parent, const char* child) {
+  return std::string(trimmed(parent.child_value(child)));
+}
 
 std::string name_of(pugi::xml_node node) { return node.attribute("name").value(); }
 

@@ -55,25 +55,33 @@ struct Broken {
 };
 
 const Broken kBroken[] = {
-    {"NoBodies", "\"bodies\": [ { \"name\": \"forearm\", \"mass\": 1 }, { \"name\": \"arm\", \"mass\": 2 } ],", "", "bodies"},
+    {"NoBodies", "\"bodies\": [ { \"name\": \"forearm\", \"mass\": 1 }, { \"name\": \"arm\", \"mass\": 2 } ],", "",
+     "bodies"},
     {"BodyTwice", "\"name\": \"arm\"", "\"name\": \"forearm\"", "the body 'forearm' is there already"},
     {"UnknownBody", "\"parent\": \"arm\"", "\"parent\": \"amr\"", "unknown body 'amr'; did you mean 'arm'?"},
-    {"UnknownCoordinate", "\"coordinate\": \"elbow\" }", "\"coordinate\": \"elbwo\" }", "unknown coordinate 'elbwo'; did you mean 'elbow'?"},
+    {"UnknownCoordinate", "\"coordinate\": \"elbow\" }", "\"coordinate\": \"elbwo\" }",
+     "unknown coordinate 'elbwo'; did you mean 'elbow'?"},
     {"UnknownField", "\"mass\": 1", "\"mas\": 1", "mas"},
     {"RangeOfOne", "\"range\": [-3, 3]", "\"range\": [-3]", "this is not a range"},
-    {"RangeBackwards", "\"range\": [-3, 3]", "\"range\": [3, -3]", "this is not a range; give two numbers, the smaller first"},
+    {"RangeBackwards", "\"range\": [-3, 3]", "\"range\": [3, -3]",
+     "this is not a range; give two numbers, the smaller first"},
     {"NoRange", ", \"range\": [-3, 3]", "", "range"},
     {"AxisOfTwo", "\"axis\": [0, 0, 2]", "\"axis\": [0, 2]", "2 numbers; give three"},
-    {"AxisOfNoLength", "\"axis\": [0, 0, 2]", "\"axis\": [0, 0, 0]", "model.json:10:5: /joints/0: an axis of the joint 'b' has no length"},
-    {"AxisOfNothing", "\"axis\": [0, 0, 2], \"coordinate\": \"elbow\"", "\"axis\": [0, 0, 2]", "neither a coordinate nor a function"},
+    {"AxisOfNoLength", "\"axis\": [0, 0, 2]", "\"axis\": [0, 0, 0]",
+     "model.json:10:5: /joints/0: an axis of the joint 'b' has no length"},
+    {"AxisOfNothing", "\"axis\": [0, 0, 2], \"coordinate\": \"elbow\"", "\"axis\": [0, 0, 2]",
+     "neither a coordinate nor a function"},
     {"Circle", "\"parent\": \"ground\"", "\"parent\": \"forearm\"", "run in a circle"},
     {"OwnParent", "\"parent\": \"ground\"", "\"parent\": \"arm\"", "run in a circle"},
     {"BodyWithoutJoint", "\"child\": \"arm\"", "\"child\": \"forearm\"", "the child of two joints"},
     {"CoordinateTwice", "\"name\": \"elbow\"", "\"name\": \"shoulder\"", "the coordinate 'shoulder' is there already"},
-    {"CoupledInACircle", "\"coordinate\": \"elbow\", \"function\"", "\"coordinate\": \"follower\", \"function\"", "coupled in a circle"},
-    {"TwoFunctions", "{ \"linear\": [2, 0.1] }", "{ \"linear\": [2, 0.1], \"polynomial\": [1] }", "give exactly one of them"},
+    {"CoupledInACircle", "\"coordinate\": \"elbow\", \"function\"", "\"coordinate\": \"follower\", \"function\"",
+     "coupled in a circle"},
+    {"TwoFunctions", "{ \"linear\": [2, 0.1] }", "{ \"linear\": [2, 0.1], \"polynomial\": [1] }",
+     "give exactly one of them"},
     {"LinearOfOne", "{ \"linear\": [2, 0.1] }", "{ \"linear\": [2] }", "1 numbers; give two: slope, value at 0"},
-    {"SplineFalls", "{ \"linear\": [2, 0.1] }", "{ \"spline\": { \"x\": [0, -1], \"y\": [0, 0] } }", "x falls or repeats at point 1"},
+    {"SplineFalls", "{ \"linear\": [2, 0.1] }", "{ \"spline\": { \"x\": [0, -1], \"y\": [0, 0] } }",
+     "x falls or repeats at point 1"},
     {"FunctionIsText", "{ \"linear\": [2, 0.1] }", "\"twice\"", "function"},
     {"NegativeMass", "\"mass\": 2", "\"mass\": -2", "mass"},
 };
@@ -146,7 +154,8 @@ TEST(JointModel, RotatesAboutCarriedAxesInOrder) {
   // R = Rz Rx Ry on the child frame's x axis: Ry takes x to -z, Rx takes -z to y, Rz takes y to -x.
   const glm::dmat3 child = rotation_from_xyz({0.1, 0.2, 0.3});
   EXPECT_LT(glm::distance(pose.rotation * (child * glm::dvec3(1, 0, 0)), glm::dvec3(-1, 0, 0)), 1e-15);
-  EXPECT_LT(glm::distance(rotation_from_xyz({quarter, quarter, 0.0}) * glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)), 1e-15);
+  EXPECT_LT(glm::distance(rotation_from_xyz({quarter, quarter, 0.0}) * glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)),
+            1e-15);
 }
 
 TEST(JointModel, WritesTheSamePoseInSinglePrecision) {

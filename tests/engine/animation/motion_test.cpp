@@ -25,7 +25,8 @@ const JointModel& leg() {
       "coordinates": [ { "name": "tx", "kind": "translation", "range": [-9, 9] }, { "name": "ty", "kind": "translation", "default": 0.9, "range": [-9, 9] },
                        { "name": "hip", "range": [-2, 2] } ],
       "joints": [ { "name": "j", "parent": "ground", "child": "leg", "rotations": [ { "axis": [0, 0, 1], "coordinate": "hip" } ],
-        "translations": [ { "axis": [1, 0, 0], "coordinate": "tx" }, { "axis": [0, 1, 0], "coordinate": "ty" } ] } ] })", "leg.json");
+        "translations": [ { "axis": [1, 0, 0], "coordinate": "tx" }, { "axis": [0, 1, 0], "coordinate": "ty" } ] } ] })",
+                                     "leg.json");
     return *read_joint_model(document->root());
   }();
   return model;
@@ -41,17 +42,24 @@ const Broken kBroken[] = {
     {"Empty", "", "this is not an OpenSim motion"},
     {"NoEndOfHeader", "Coordinates\ninDegrees=yes\ntime\thip\n0\t1\n", "no line `endheader`"},
     {"NoColumns", "m\ninDegrees=no\nendheader\n", "no line of column names"},
-    {"NoTime", "m\ninDegrees=no\nendheader\nhip\ttime\n0\t1\n", "m.mot:4:1: the first column is 'hip'; let the first column be time"},
-    {"NothingKnown", "m\ninDegrees=no\nendheader\ntime\tknee\n0\t1\n", "no column is a coordinate of the model; the model's coordinates are: tx, ty, hip"},
-    {"ColumnTwice", "m\ninDegrees=no\nendheader\ntime\thip\thip\n0\t1\t1\n", "m.mot:4:10: the column 'hip' occurs twice"},
-    {"CoordinateTwice", "m\ninDegrees=no\nendheader\ntime\thip\t/jointset/j/hip/value\n0\t1\t1\n", "two columns give the coordinate 'hip'"},
+    {"NoTime", "m\ninDegrees=no\nendheader\nhip\ttime\n0\t1\n",
+     "m.mot:4:1: the first column is 'hip'; let the first column be time"},
+    {"NothingKnown", "m\ninDegrees=no\nendheader\ntime\tknee\n0\t1\n",
+     "no column is a coordinate of the model; the model's coordinates are: tx, ty, hip"},
+    {"ColumnTwice", "m\ninDegrees=no\nendheader\ntime\thip\thip\n0\t1\t1\n",
+     "m.mot:4:10: the column 'hip' occurs twice"},
+    {"CoordinateTwice", "m\ninDegrees=no\nendheader\ntime\thip\t/jointset/j/hip/value\n0\t1\t1\n",
+     "two columns give the coordinate 'hip'"},
     {"NoRows", "m\ninDegrees=no\nendheader\ntime\thip\n", "the motion has no rows"},
-    {"Nan", "m\ninDegrees=no\nendheader\ntime\thip\n0\t0\n1\tnan\n", "m.mot:6:3: row 2, column hip: 'nan' is not a finite number"},
+    {"Nan", "m\ninDegrees=no\nendheader\ntime\thip\n0\t0\n1\tnan\n",
+     "m.mot:6:3: row 2, column hip: 'nan' is not a finite number"},
     {"Infinite", "m\ninDegrees=no\nendheader\ntime\thip\n0\tinf\n", "'inf' is not a finite number"},
     {"Word", "m\ninDegrees=no\nendheader\ntime\thip\n0\t1.5deg\n", "'1.5deg' is not a finite number"},
-    {"RowTooShort", "m\ninDegrees=no\nendheader\ntime\thip\ttx\n0\t0\t0\n1\t0\n", "m.mot:6:1: row 2: 2 values, but line 4 names 3 columns"},
+    {"RowTooShort", "m\ninDegrees=no\nendheader\ntime\thip\ttx\n0\t0\t0\n1\t0\n",
+     "m.mot:6:1: row 2: 2 values, but line 4 names 3 columns"},
     {"RowTooLong", "m\ninDegrees=no\nendheader\ntime\thip\n0\t0\t0\n", "3 values, but line 4 names 2 columns"},
-    {"TimeFalls", "m\ninDegrees=no\nendheader\ntime\thip\n0\t0\n1\t0\n0.5\t0\n", "m.mot:7:1: row 3: the time 0.5 does not rise above the one before, 1"},
+    {"TimeFalls", "m\ninDegrees=no\nendheader\ntime\thip\n0\t0\n1\t0\n0.5\t0\n",
+     "m.mot:7:1: row 3: the time 0.5 does not rise above the one before, 1"},
     {"TimeStands", "m\ninDegrees=no\nendheader\ntime\thip\n1\t0\n1\t0\n", "does not rise"},
     {"OddDegrees", "m\ninDegrees=maybe\nendheader\ntime\thip\n0\t0\n", "inDegrees is 'maybe'"},
     {"Vectors", "m\nDataType=Vec3\ninDegrees=no\nendheader\ntime\thip\n0\t0,0,0\n", "DataType is Vec3"},
@@ -78,8 +86,9 @@ TEST(MotionReader, ReportsAllBadRowsAndStopsAtFifty) {
 }
 
 TEST(MotionReader, ConvertsDegreesOfRotationsOnlyAndWarnsOfTheRest) {
-  const auto motion = parse_motion("Trial\r\nnRows=3\r\ninDegrees=yes\r\nendheader\r\n time  hip  tx  grf  \r\n0 90 90 1\r\n0.5 +45 1 1\r\n",
-                                   "m.mot", leg());
+  const auto motion = parse_motion(
+      "Trial\r\nnRows=3\r\ninDegrees=yes\r\nendheader\r\n time  hip  tx  grf  \r\n0 90 90 1\r\n0.5 +45 1 1\r\n",
+      "m.mot", leg());
   ASSERT_TRUE(motion.ok()) << to_text(motion.diagnostics());
   EXPECT_EQ(motion->name, "Trial");
   std::vector<double> values(3);
@@ -94,8 +103,8 @@ TEST(MotionReader, ConvertsDegreesOfRotationsOnlyAndWarnsOfTheRest) {
 }
 
 TEST(MotionReader, ReadsStatesByPath) {
-  const auto motion = parse_motion("s\ninDegrees=no\nendheader\ntime\t/jointset/j/hip/value\t/jointset/j/hip/speed\n0\t0.5\t7\n",
-                                   "s.sto", leg());
+  const auto motion = parse_motion(
+      "s\ninDegrees=no\nendheader\ntime\t/jointset/j/hip/value\t/jointset/j/hip/speed\n0\t0.5\t7\n", "s.sto", leg());
   ASSERT_TRUE(motion.ok()) << to_text(motion.diagnostics());
   EXPECT_EQ(motion->values[2], 0.5);
   EXPECT_EQ(motion->cycle.length(), 0.0);  // a single pose

@@ -16,9 +16,12 @@ TEST(ScalarFunction, NamesWhatIsWrongWithKnots) {
   const std::vector<double> rising{0.0, 1.0, 2.0};
   EXPECT_THAT(fault_of_knots(rising, std::vector<double>{0.0, 1.0}), HasSubstr("3 x values but 2 y values"));
   EXPECT_THAT(fault_of_knots({}, {}), HasSubstr("0 points"));
-  EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, 0.0}, std::vector<double>{0.0, 1.0}), HasSubstr("repeats at point 1"));
-  EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, 1e-12}, std::vector<double>{0.0, 1.0}), HasSubstr("less than 1e-9"));
-  EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, std::nan("")}, std::vector<double>{0.0, 1.0}), HasSubstr("not finite"));
+  EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, 0.0}, std::vector<double>{0.0, 1.0}),
+              HasSubstr("repeats at point 1"));
+  EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, 1e-12}, std::vector<double>{0.0, 1.0}),
+              HasSubstr("less than 1e-9"));
+  EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, std::nan("")}, std::vector<double>{0.0, 1.0}),
+              HasSubstr("not finite"));
   EXPECT_THAT(fault_of_knots(std::vector<double>{0.0, 1e10}, std::vector<double>{0.0, 1.0}), HasSubstr("beyond 1e9"));
   EXPECT_THAT(fault_of_knots(std::vector<double>{-1e10, 0.0}, std::vector<double>{0.0, 1.0}), HasSubstr("beyond 1e9"));
   EXPECT_EQ(fault_of_knots(rising, rising), "");
@@ -76,10 +79,10 @@ TEST(ScalarFunction, SplinePassesItsPointsSmoothlyAndGoesOnStraight) {
 }
 
 TEST(ScalarFunction, DerivativesAgreeWithDifferences) {
-  const ScalarFunction functions[] = {
-      ScalarFunction::constant(1.0), ScalarFunction::linear(3.0, 1.0), ScalarFunction::polynomial({1.0, -2.0, 0.5, 3.0}),
-      ScalarFunction::piecewise_linear({-1.0, 0.0, 1.0}, {1.0, -1.0, 4.0}),
-      ScalarFunction::spline({-1.0, -0.3, 0.2, 1.0}, {1.0, -1.0, 4.0, 0.0})};
+  const ScalarFunction functions[] = {ScalarFunction::constant(1.0), ScalarFunction::linear(3.0, 1.0),
+                                      ScalarFunction::polynomial({1.0, -2.0, 0.5, 3.0}),
+                                      ScalarFunction::piecewise_linear({-1.0, 0.0, 1.0}, {1.0, -1.0, 4.0}),
+                                      ScalarFunction::spline({-1.0, -0.3, 0.2, 1.0}, {1.0, -1.0, 4.0, 0.0})};
   for (const ScalarFunction& function : functions) {
     for (double x = -1.55; x < 1.6; x += 0.1) {
       const double difference = (function(x + 1e-6) - function(x - 1e-6)) / 2e-6;

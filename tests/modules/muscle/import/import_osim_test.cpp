@@ -52,7 +52,8 @@ TEST(ImportOsim, TakesPointsInTheirDefaultStateWithOneWarningAMuscle) {
   Diagnostics diagnostics;
   const std::string text = import_text(small_model(), &diagnostics);
   std::size_t of_muscles = 0;
-  for (const Diagnostic& warning : diagnostics.warnings) of_muscles += warning.path == "extensor" || warning.path == "plain";
+  for (const Diagnostic& warning : diagnostics.warnings)
+    of_muscles += warning.path == "extensor" || warning.path == "plain";
   EXPECT_EQ(of_muscles, 1u);
   EXPECT_THAT(to_text(diagnostics), HasSubstr("conditional points stay off: P2; moving points stand still: P3; "
                                               "it does not wrap over: condyle"));
@@ -152,7 +153,8 @@ TEST_P(RealModels, BecomeCharacters) {
     // Fixed points come through as the very figures of the model.
     for (const OsimPathPoint& point : muscle.points) {
       if (point.kind != OsimPathPoint::Kind::kFixed) continue;
-      EXPECT_THAT(*text, HasSubstr(fmt::format("[{}, {}, {}]", point.location.x + 0.0, point.location.y + 0.0, point.location.z + 0.0)));
+      EXPECT_THAT(*text, HasSubstr(fmt::format("[{}, {}, {}]", point.location.x + 0.0, point.location.y + 0.0,
+                                               point.location.z + 0.0)));
     }
   }
   EXPECT_EQ(warned, GetParam().warned);
@@ -168,15 +170,16 @@ TEST(ImportOsim, TheShippedCharacterIsUpToDate) {
   options.geometry_folder = test::data_folder() / "opensim" / "Geometry";
   options.geometry_prefix = "data:opensim/Geometry/";
   const Result<std::string> text = import_character(*model, options);
-  const auto shipped = read_text_file(std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "characters" / "gait2392" /
-                                      "gait2392.character.json");
+  const auto shipped = read_text_file(std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "characters" /
+                                      "gait2392" / "gait2392.character.json");
   ASSERT_TRUE(text.ok() && shipped.ok());
   EXPECT_TRUE(*text == *shipped) << "make it anew: fascicle-cook import-osim gait2392.osim --out "
                                     "content/characters/gait2392/gait2392.character.json";
 }
 
 INSTANTIATE_TEST_SUITE_P(ImportOsim, RealModels,
-                         testing::Values(RealModel{"gait2392", 22}, RealModel{"gait10dof18musc", 8}, RealModel{"arm26", 5}),
+                         testing::Values(RealModel{"gait2392", 22}, RealModel{"gait10dof18musc", 8},
+                                         RealModel{"arm26", 5}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The joint models and path points of three OpenSim models against tables computed with OpenSim itself: 64 random poses.
+// Joints and path points of three OpenSim models against tables computed with OpenSim itself: 64 random poses each.
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -124,7 +124,8 @@ TEST_P(OsimReference, PathPointsAgreeWithOpenSim) {
   const Agreement agreement = compare(*model, folder / "reference" / name);
   RecordProperty("worst_nm", std::to_string(agreement.worst * 1e9));
   std::printf("%s: %zu fixed, %zu conditional, %zu moving points; worst %.2e m in double, %.2e m in single precision\n",
-              name.c_str(), agreement.fixed, agreement.conditional, agreement.moving, agreement.worst, agreement.worst_float);
+              name.c_str(), agreement.fixed, agreement.conditional, agreement.moving, agreement.worst,
+              agreement.worst_float);
   EXPECT_GT(agreement.fixed, 64u * 2 * GetParam().muscles - 1);
   EXPECT_LT(agreement.worst, 1e-9);
   EXPECT_LT(agreement.worst_float, 1e-6);
@@ -132,8 +133,8 @@ TEST_P(OsimReference, PathPointsAgreeWithOpenSim) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, OsimReference,
-                         testing::Values(Model{"gait2392", 92, 12, 23, false}, Model{"gait10dof18musc", 18, 12, 10, false},
-                                         Model{"arm26", 6, 3, 2, true}),
+                         testing::Values(Model{"gait2392", 92, 12, 23, false},
+                                         Model{"gait10dof18musc", 18, 12, 10, false}, Model{"arm26", 6, 3, 2, true}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -74,7 +74,8 @@ TEST_F(Walk, LegsTakeTurnsAndEverythingStaysTogether) {
     const auto bones = evaluate_bones(model_.joints, values);
     for (std::size_t b = 0; b < bones.size(); ++b) {
       ASSERT_TRUE(std::isfinite(glm::length(bones[b].translation)));
-      if (!before.empty()) longest_step = std::max(longest_step, glm::distance(bones[b].translation, before[b].translation));
+      if (!before.empty())
+        longest_step = std::max(longest_step, glm::distance(bones[b].translation, before[b].translation));
     }
     before = bones;
     const auto h = static_cast<std::size_t>(heel);
@@ -83,8 +84,8 @@ TEST_F(Walk, LegsTakeTurnsAndEverythingStaysTogether) {
     EXPECT_GT(bones[static_cast<std::size_t>(thigh)].translation.x, -0.3);
     EXPECT_LT(bones[static_cast<std::size_t>(thigh)].translation.x, 0.0);  // the right side is at -x
   }
-  std::printf("lowest foot origin %.4f m, highest heel %.4f m, longest step of a bone in a frame %.4f m\n", lowest, highest,
-              longest_step);
+  std::printf("lowest foot origin %.4f m, highest heel %.4f m, longest step of a bone in a frame %.4f m\n", lowest,
+              highest, longest_step);
   EXPECT_LT(together, 0.0);
   EXPECT_LT(deepest_knee, -0.9);      // swing bends the knee by more than 50 degrees
   EXPECT_GT(highest - lowest, 0.1);   // feet leave the ground
