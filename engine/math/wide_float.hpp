@@ -276,6 +276,24 @@ FASCICLE_INLINE WideFloat<N> to_float(WideInt<N> a) {
   else return {__builtin_convertvector(a.v, typename Register<N>::Float)};
 }
 
+// Eight lanes turned by one place: lane i of rotate_down is lane i + 1 of `a`, of rotate_up lane i - 1.
+FASCICLE_INLINE WideFloat<8> rotate_down(WideFloat<8> a) {
+#if defined(__AVX2__)
+  return {_mm256_permutevar8x32_ps(a.v, _mm256_setr_epi32(1, 2, 3, 4, 5, 6, 7, 0))};
+#else
+  const __m128i lo = _mm_castps_si128(a.lo.v), hi = _mm_castps_si128(a.hi.v);
+  return {{_mm_castsi128_ps(_mm_alignr_epi8(hi, lo, 4))}, {_mm_castsi128_ps(_mm_alignr_epi8(lo, hi, 4))}};
+#endif
+}
+FASCICLE_INLINE WideFloat<8> rotate_up(WideFloat<8> a) {
+#if defined(__AVX2__)
+  return {_mm256_permutevar8x32_ps(a.v, _mm256_setr_epi32(7, 0, 1, 2, 3, 4, 5, 6))};
+#else
+  const __m128i lo = _mm_castps_si128(a.lo.v), hi = _mm_castps_si128(a.hi.v);
+  return {{_mm_castsi128_ps(_mm_alignr_epi8(lo, hi, 12))}, {_mm_castsi128_ps(_mm_alignr_epi8(hi, lo, 12))}};
+#endif
+}
+
 // The lanes' sum, first to last whatever the machine.
 template <int N>
 FASCICLE_INLINE float sum_in_order(WideFloat<N> a) {

@@ -7,7 +7,8 @@
 //   blocks of 16 lanes; a block holds row after row, [section][lane]. A frame is a chain of steps along one muscle, so
 //   the kernels run 16 muscles side by side. Section k of a muscle lives in slot first_slot + 16 k. Slots of lanes
 //   that end early hold copies of the last section's values (the kernels write them, nobody need read them).
-// - Radii hold one row of radius_stride floats per section, muscle after muscle; the first |C| are meant.
+// - Radii hold one row of radius_stride floats per section, muscle after muscle; the first |C| are meant. There are 16
+//   unused floats before the first row and after the last.
 // - Vertices are what is drawn: per muscle rows of |C| vertices from origin to insertion, the tendon sections in their
 //   place among them, then the two cap centres (origin, insertion). No gaps: vertex_count = rows |C| + 2.
 //

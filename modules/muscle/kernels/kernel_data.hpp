@@ -53,7 +53,7 @@ struct SectionLayout {
   bool tendon_drawn[2] = {};           // at the origin, at the insertion: has a section C_t of its own
 };
 
-// cos and sin of theta_i = 2 pi i / |C|, going round again up to a multiple of 16.
+// cos and sin of theta_i = 2 pi i / |C|, going round for 16 numbers before i = 0 and after i = |C| too.
 struct Circle {
   const float* cosines = nullptr;
   const float* sines = nullptr;

@@ -18,18 +18,20 @@ namespace fascicle::muscle::FASCICLE_ISA {
 // Squared length (m^4) below which a normal has no direction.
 inline constexpr float kSmallestNormalSquared = 1.0e-34f;
 
-// 10:10:10:2 signed, from components of length 511.
+// 10:10:10:2 signed, from components of length 511: added up with a bias that keeps each field positive, so that no
+// sign spills into the next, and which is then taken off by flipping each field's highest bit.
 template <int N>
 FASCICLE_INLINE WideFloat<N> pack_normal(WideVector<N> n) {
-  const WideInt<N> low = broadcast_int<N>(1023);
-  return from_bits((round_to_int(n.x) & low) | shift_left(round_to_int(n.y) & low, 10) |
-                   shift_left(round_to_int(n.z) & low, 20));
+  const WideInt<N> bias = broadcast_int<N>(512 | 512 << 10 | 512 << 20);
+  const WideInt<N> sum =
+      round_to_int(n.x) + shift_left(round_to_int(n.y), 10) + shift_left(round_to_int(n.z), 20) + bias;
+  return from_bits(sum ^ bias);
 }
 
 // Writes vertices i.. of one drawn row, from positions c and differences e, d.
 template <bool kStream, int N>
 FASCICLE_INLINE void write_vertices(WideVector<N> c, WideVector<N> e, WideVector<N> d, const SectionFrame& frame,
-                                    const Circle& circle, std::uint32_t i, std::uint32_t count, float* to) {
+                                    const Circle& circle, std::size_t i, std::size_t count, float* to) {
   WideVector<N> normal = cross(e, d);
   WideFloat<N> squared = dot(normal, normal);
   const WideInt<N> vanished = squared < broadcast<N>(kSmallestNormalSquared);
@@ -38,13 +40,13 @@ FASCICLE_INLINE void write_vertices(WideVector<N> c, WideVector<N> e, WideVector
     squared = dot(normal, normal);
   }
   const WideFloat<N> packed = pack_normal((broadcast<N>(511.0f) / square_root(squared)) * normal);
-  float* vertex = to + kFloatsPerVertex * std::size_t{i};
+  float* vertex = to + kFloatsPerVertex * i;
   if (count == N) {
     store_records<kStream>(c.x, c.y, c.z, packed, vertex);
   } else {
     alignas(64) float records[kFloatsPerVertex * N];
     store_records<false>(c.x, c.y, c.z, packed, records);
-    for (std::uint32_t n = 0; n < count; ++n) {
+    for (std::size_t n = 0; n < count; ++n) {
       store_four(vertex + 4 * n, load<4>(records + 4 * n).v, kStream);
     }
   }
@@ -60,27 +62,28 @@ FASCICLE_INLINE void write_centre(const SectionFrame& f, float sign, float* to) 
   store_four(to, _mm_setr_ps(f.ax, f.ay, f.az, packed.v[0]), kStream);
 }
 
-template <bool kStream>
+template <bool kStream, bool kEight>
 inline void write_muscle(const SectionsView& view, std::uint32_t muscle, SectionRow* window, float* vertices) {
   const SectionLayout& layout = view.layouts[muscle];
-  const std::uint32_t count = layout.section_vertices, last = layout.section_count - 1;
+  const std::size_t count = layout.section_vertices;
+  const std::uint32_t last = layout.section_count - 1;
   const Circle circle = view.circles[layout.circle];
   float* to = vertices + kFloatsPerVertex * std::size_t{layout.first_vertex};
-  const std::size_t row_floats = kFloatsPerVertex * std::size_t{count};
+  const std::size_t row_floats = kFloatsPerVertex * count;
   const auto row = [&](std::uint32_t k) __attribute__((always_inline)) -> SectionRow& { return window[k & 3]; };
 
-  make_row<false>(view, layout, 0, row(0));
-  make_row<false>(view, layout, 1, row(1));
+  make_row<kEight>(view, layout, 0, row(0));
+  make_row<kEight>(view, layout, 1, row(1));
   for (std::uint32_t k = 0; k <= last; ++k) {
-    if (k + 2 <= last) make_row<false>(view, layout, k + 2, row(k + 2));
+    if (k + 2 <= last) make_row<kEight>(view, layout, k + 2, row(k + 2));
     const SectionFrame frame = load_frame(view, layout, k);
     const SectionRow& before = row(k == 0 ? 0 : k - 1);
     const SectionRow& here = row(k);
     const SectionRow& next = row(k == last ? last : k + 1);
-    for_lanes(count, [&](auto lanes, std::uint32_t i, std::uint32_t n) __attribute__((always_inline)) {
+    for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t n) __attribute__((always_inline)) {
       constexpr int N = decltype(lanes)::kCount;
-      write_vertices<kStream, N>(load_row<N>(here, i), load_row<N>(here, i, 1) - load_row<N>(here, i, -1),
-                                 load_row<N>(next, i) - load_row<N>(before, i), frame, circle, i, n, to);
+      write_vertices<kStream, N>(load_vertices<N>(here, i), load_differences<kEight, N>(here, i),
+                                 load_vertices<N>(next, i) - load_vertices<N>(before, i), frame, circle, i, n, to);
     });
     to += row_floats;
 
@@ -88,17 +91,18 @@ inline void write_muscle(const SectionsView& view, std::uint32_t muscle, Section
       if (!layout.tendon_drawn[end] || view.segment[end][layout.lane_index] != static_cast<int>(k)) continue;
       const float fraction = view.fraction[end][layout.lane_index];
       const SectionRow& after = row(k + 1 == last ? last : k + 2);
-      for_lanes(count, [&](auto lanes, std::uint32_t i, std::uint32_t n) __attribute__((always_inline)) {
+      for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t n) __attribute__((always_inline)) {
         constexpr int N = decltype(lanes)::kCount;
         const WideFloat<N> s = broadcast<N>(fraction);
-        const auto between = [&](int offset) __attribute__((always_inline)) {
-          const WideVector<N> a = load_row<N>(here, i, offset), b = load_row<N>(next, i, offset);
+        const auto between = [&](WideVector<N> a, WideVector<N> b) __attribute__((always_inline)) {
           return a + s * (b - a);
         };
-        const WideVector<N> d_here = load_row<N>(next, i) - load_row<N>(before, i);
-        const WideVector<N> d_next = load_row<N>(after, i) - load_row<N>(here, i);
-        write_vertices<kStream, N>(between(0), between(1) - between(-1), d_here + s * (d_next - d_here), frame, circle,
-                                   i, n, to);
+        const WideVector<N> c_here = load_vertices<N>(here, i), c_next = load_vertices<N>(next, i);
+        const WideVector<N> d_here = c_next - load_vertices<N>(before, i);
+        const WideVector<N> d_next = load_vertices<N>(after, i) - c_here;
+        write_vertices<kStream, N>(between(c_here, c_next),
+                                   between(load_differences<kEight, N>(here, i), load_differences<kEight, N>(next, i)),
+                                   between(d_here, d_next), frame, circle, i, n, to);
       });
       to += row_floats;
     }
@@ -115,7 +119,8 @@ inline void collapse_muscle(const SectionsView& view, std::uint32_t muscle, floa
   for (std::uint32_t i = 0; i < layout.vertex_count; ++i) write_centre<false>(frame, -1.0f, to + kFloatsPerVertex * i);
 }
 
-inline void write_surfaces(const WriteSurfacesJob& job) {
+template <bool kStream>
+inline void write_all(const WriteSurfacesJob& job) {
   SectionRow window[4];
   for (SectionRow& row : window) {  // lanes beyond a row's end are computed, if not written: keep them numbers
     __builtin_memset(&row, 0, sizeof(row));
@@ -123,10 +128,18 @@ inline void write_surfaces(const WriteSurfacesJob& job) {
   const SectionsView& view = job.sections;
   for (std::uint32_t muscle = 0; muscle < view.muscle_count; ++muscle) {
     if (view.attached != nullptr && view.attached[muscle] == 0) collapse_muscle(view, muscle, job.vertices);
-    else if (job.stream) write_muscle<true>(view, muscle, window, job.vertices);
-    else write_muscle<false>(view, muscle, window, job.vertices);
+    else if (view.layouts[muscle].section_vertices == 8) write_muscle<kStream, true>(view, muscle, window, job.vertices);
+    else write_muscle<kStream, false>(view, muscle, window, job.vertices);
   }
-  if (job.stream) _mm_sfence();
+}
+
+inline void write_surfaces(const WriteSurfacesJob& job) {
+  if (job.stream) {
+    write_all<true>(job);
+    _mm_sfence();
+  } else {
+    write_all<false>(job);
+  }
 }
 
 }  // namespace fascicle::muscle::FASCICLE_ISA

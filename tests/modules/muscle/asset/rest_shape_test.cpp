@@ -70,7 +70,7 @@ TEST(RestShape, RelativeProfileIsScaled) {
   muscle.profile = {{0.0f, 1.0f}, {5.0f, 5.0f}, false};
   const auto asset = build(muscle);
   const double area = 18.0 * std::sin(6.283185307 / 36.0);
-  EXPECT_NEAR(asset->rest_radii[0], std::sqrt(3.0e-4 / 0.3 / area), 1.0e-6);
+  EXPECT_NEAR(asset->rest_radii[asset->radius(0, 0)], std::sqrt(3.0e-4 / 0.3 / area), 1.0e-6);
 }
 
 TEST(RestShape, BentMusclesMeetTheirVolumesToo) {
