@@ -14,6 +14,7 @@ constexpr int kMarchSteps = 14;
 constexpr int kBisections = 6;
 constexpr int kGrowRounds = 5;
 constexpr float kBoneGap = 0.0004f;      // m, between a mesh and bone
+constexpr float kMiddleGap = 0.001f;     // m, between a mesh and the plane of symmetry
 constexpr float kNeighbourGap = 0.02f;   // of normalised radius, between two meshes
 constexpr float kLeastRadius = 0.16f;    // normalised: a rim never closes to a point
 constexpr float kEndReach = 0.012f;      // m from an end, over which the mesh may sink into its bone
@@ -53,6 +54,7 @@ bool may_reach(const Surroundings& around, std::size_t m, std::size_t k, float t
   if (k > 0 && glm::dot(p - belly.sections[k - 1].centre, belly.sections[k - 1].tangent) < 0.0f) return false;
   const float from_end = belly.length * static_cast<float>(std::min(k, last - k)) / static_cast<float>(last);
   const float sink = std::max(0.0f, 1.0f - from_end / kEndReach) * 0.004f;
+  if (p.x > -kMiddleGap) return false;  // the other side's half
   if (rest_distance(*around.bones, p) < kBoneGap - sink) return false;
   for (std::size_t other = 0; other < around.boxes.size(); ++other) {
     if (other == m) continue;

@@ -79,7 +79,7 @@ std::vector<MuscleSpec> hip_muscles() {
         femur(-0.0188f, -0.0597f, 0.0104f)},
        {.begin = 0.0f, .peak = 0.27f, .end = 0.80f, .aspect = 1.8f, .wrap = 0.9f, .skew = 0.3f, .lift = 0.8f,
         .origin_width = 14, .origin_thickness = 7, .insertion_width = 3, .insertion_thickness = 2,
-        .outward_origin = {1, 0, -0.1f}, .outward_insertion = {1, 0, -0.2f}, .middle_shift = {3, 0, -8},
+        .outward_origin = {1, 0, -0.1f}, .outward_insertion = {1, 0, -0.2f}, .origin_shift = {-7, 0, -5}, .middle_shift = {3, 0, -8},
         .tendon_shift = {0, 0, -6}, .insertion_shift = {0, 5, -4}}},
       {"quadratus_femoris_r", 381, 0.054f, 0.024f, 0.0f,
        {pelvis(-0.1143f, -0.1151f, 0.052f), femur(-0.0381f, -0.0359f, 0.0366f)},

@@ -17,6 +17,7 @@ void add_ilium(Solid& solid) {
   const Knot aiis = knot_mm(-34, -24, 102, 6.0f), fossa_a = knot_mm(-42, 28, 110, 3.2f);
   const Knot fossa_b = knot_mm(-68, 35, 87, 2.8f), fossa_c = knot_mm(-96, 38, 70, 4.0f);
   const Knot auricular = knot_mm(-116, 34, 58, 7.0f);
+  const Knot socket_front = knot_mm(-50, -44, 87, 8.0f);
   const Knot fossa_low = knot_mm(-62, 2, 93, 4.0f);
   Sheet wing{{
       {asis, crest_a, fossa_a},          {crest_a, crest_b, fossa_a},     {crest_b, crest_c, fossa_a},
@@ -26,6 +27,7 @@ void add_ilium(Solid& solid) {
       {notch, fossa_c, auricular},       {notch, body_back, fossa_c},     {body_back, fossa_b, fossa_c},
       {body_back, fossa_low, fossa_b},   {fossa_low, fossa_a, fossa_b},   {body_back, body_front, fossa_low},
       {body_front, fossa_a, fossa_low},  {body_front, aiis, fossa_a},     {aiis, asis, fossa_a},
+      {body_front, aiis, socket_front},
   }};
   solid.add(wing);
   solid.add_tube({asis, crest_a, crest_b, crest_c, crest_d, crest_e, crest_f, psis});  // the crest's lip
@@ -97,11 +99,11 @@ BoneShape make_torso() {
   shape.solid = Solid(0.004f);
   shape.symmetric = true;
   shape.voxel = 0.0032f;
-  add_vertebra(shape.solid, 5.0f, 3.0f);    // L5
-  add_vertebra(shape.solid, 13.0f, 37.0f);  // L4
-  add_vertebra(shape.solid, 17.0f, 72.0f);  // L3
-  shape.solid.add(Ellipsoid{from_opensim_mm(9, 20, 0), 0.001f * glm::vec3(24, 5, 17)});   // discs
-  shape.solid.add(Ellipsoid{from_opensim_mm(15.5f, 54.5f, 0), 0.001f * glm::vec3(24, 5, 17)});
+  add_vertebra(shape.solid, 9.0f, 3.0f);    // L5
+  add_vertebra(shape.solid, 18.0f, 37.0f);  // L4
+  add_vertebra(shape.solid, 23.0f, 72.0f);  // L3
+  shape.solid.add(Ellipsoid{from_opensim_mm(13.5f, 20, 0), 0.001f * glm::vec3(24, 5, 17)});   // discs
+  shape.solid.add(Ellipsoid{from_opensim_mm(20.5f, 54.5f, 0), 0.001f * glm::vec3(24, 5, 17)});
   return shape;
 }
 
