@@ -6,17 +6,22 @@
 
 namespace fascicle::FASCICLE_ISA {
 
+// For |y| <= pi/4; there, the same bits as sine_cosine.
+template <int N>
+FASCICLE_INLINE void sine_cosine_near_zero(WideFloat<N> y, WideFloat<N>& sine, WideFloat<N>& cosine) {
+  const WideFloat<N> z = y * y;
+  sine = ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * y + y;
+  cosine = ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z - 0.5f * z + 1.0f;
+}
+
 template <int N>
 FASCICLE_INLINE void sine_cosine(WideFloat<N> angle, WideFloat<N>& sine, WideFloat<N>& cosine) {
   // angle = quarter pi/2 + y, |y| <= pi/4; pi/2 in three parts whose products with `quarter` are exact.
   const WideInt<N> quarter = round_to_int(0.63661977236758134f * angle);
   const WideFloat<N> q = to_float(quarter);
   const WideFloat<N> y = angle - 1.5703125f * q - 4.837512969970703125e-4f * q - 7.54978995489188216e-8f * q;
-  const WideFloat<N> z = y * y;
-  const WideFloat<N> s =
-      ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * y + y;
-  const WideFloat<N> c =
-      ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z - 0.5f * z + 1.0f;
+  WideFloat<N> s, c;
+  sine_cosine_near_zero(y, s, c);
   const WideInt<N> odd = (quarter & broadcast_int<N>(1)) == broadcast_int<N>(1);
   const WideInt<N> sine_sign = shift_left(quarter & broadcast_int<N>(2), 30);
   const WideInt<N> cosine_sign = shift_left((quarter + broadcast_int<N>(1)) & broadcast_int<N>(2), 30);

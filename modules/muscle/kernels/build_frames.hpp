@@ -56,11 +56,12 @@ FASCICLE_INLINE WideVector<N> square_direction_of(WideVector<N> a, WideVector<N>
   return normalized(select(good, (one / square_root(select(good, squared, one))) * a, axis - dot(axis, t) * t));
 }
 
-// `r`, square to `t`, carried to the tangent `next_t` along `step`; along no step: by the shortest arc.
+// `r`, square to `t`, carried to the tangent `next_t` along `step`, of squared length `length_squared`; along no step: by
+// the shortest arc. The chain from r to the result is two dot products long: everything else can be computed ahead.
 template <int N>
-FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector<N> step, WideVector<N> next_t) {
+FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector<N> step, WideFloat<N> length_squared,
+                                    WideVector<N> next_t) {
   const WideFloat<N> one = broadcast<N>(1.0f), two = broadcast<N>(2.0f);
-  const WideFloat<N> length_squared = dot(step, step);
   const WideFloat<N> along = dot(step, t);
   const WideInt<N> usable = (broadcast<N>(kShortestStepSquared) < length_squared) &
                             (kSquareChord * length_squared < along * along);
@@ -72,9 +73,14 @@ FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector
   const WideFloat<N> second_squared = dot(second, second);
   const WideInt<N> turns = broadcast<N>(kSameTangent) < second_squared;
   const WideFloat<N> k2 = two / select(turns, second_squared, one);
-  const WideVector<N> turned = r_reflected - (k2 * dot(second, r_reflected)) * second;
-  const WideVector<N> result = select(turns, turned, r_reflected);
-  return result - dot(result, next_t) * next_t;
+  return select(turns, r_reflected - (k2 * dot(second, r_reflected)) * second, r_reflected);
+}
+
+// `r` made exactly square to `t` and unit, which it is but for rounding: one step of Newton's method does for the length.
+template <int N>
+FASCICLE_INLINE WideVector<N> square_up(WideVector<N> r, WideVector<N> t) {
+  const WideVector<N> u = r - dot(r, t) * t;
+  return (broadcast<N>(1.5f) - 0.5f * dot(u, u)) * u;
 }
 
 struct LaneDirections {
@@ -138,8 +144,8 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   // Along the line: tangents, carried directions, arc length.
   Vector t = direction_of(load_directions<N>(tangents[0]));
   Vector r = square_direction_of(load_directions<N>(references[0]), t);
-  Vector before = point(0), here = before, u = r;
-  Float arc = zero;
+  Vector before = point(0), here = before, step{zero, zero, zero}, u = r;
+  Float arc = zero, step_squared = zero;
   for (std::uint32_t k = 0; k < block.height; ++k) {
     const std::size_t slot = first + kLanes * std::size_t{k};
     Vector next = here;
@@ -151,9 +157,9 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
     const WideInt<N> has_direction = broadcast<N>(kShortestStepSquared) < chord_squared;
     const Float inverse = one / square_root(select(has_direction, chord_squared, one));
     const Vector next_t = select(has_direction, inverse * chord, t);
-    r = carry(r, t, here - before, next_t);
+    r = carry(r, t, step, step_squared, next_t);
     t = next_t;
-    u = normalized(r);
+    u = square_up(r, t);
     const Vector v = cross(t, u);
     store_free<kHold>(u.x, held, job.ux + slot);
     store_free<kHold>(u.y, held, job.uy + slot);
@@ -162,8 +168,9 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
     store_free<kHold>(v.y, held, job.vy + slot);
     store_free<kHold>(v.z, held, job.vz + slot);
     store_free<kHold>(arc, held, job.arc + slot);
-    const Vector step = next - here;
-    arc = arc + square_root(dot(step, step));
+    step = next - here;
+    step_squared = dot(step, step);
+    arc = arc + square_root(step_squared);
     before = here;
     here = next;
   }
@@ -171,7 +178,7 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   // The twist at the insertion.
   const Vector end_t = direction_of(load_directions<N>(tangents[1]));
   const Vector end_r = square_direction_of(load_directions<N>(references[1]), end_t);
-  const Vector wanted = carry(end_r, end_t, Vector{zero, zero, zero}, t);
+  const Vector wanted = square_up(carry(end_r, end_t, Vector{zero, zero, zero}, zero, t), t);
   Float twist = arc_tangent(dot(cross(t, u), wanted), dot(u, wanted));
   const Float last = job.restart_twist ? zero : load<N>(job.twist + lane);
   twist = twist + 6.2831853071795865f * to_float(round_to_int(0.15915494309189534f * (last - twist)));
@@ -181,12 +188,15 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   const WideInt<N> has_length = broadcast<N>(1.0e-5f) < arc;
   Float rate = select(has_length, twist / select(has_length, arc, one), zero);
   if constexpr (kHold) rate = select(held, zero, rate);
+  const bool far_twisted = any(broadcast<N>(0.75f) < absolute(twist));
   for (std::uint32_t k = 0; k < block.height; ++k) {
     const std::size_t slot = first + kLanes * std::size_t{k};
     const Vector u_k{load<N>(job.ux + slot), load<N>(job.uy + slot), load<N>(job.uz + slot)};
     const Vector v_k{load<N>(job.vx + slot), load<N>(job.vy + slot), load<N>(job.vz + slot)};
     Float sine, cosine;
-    sine_cosine(rate * load<N>(job.arc + slot), sine, cosine);
+    const Float angle = rate * load<N>(job.arc + slot);
+    if (far_twisted) sine_cosine(angle, sine, cosine);
+    else sine_cosine_near_zero(angle, sine, cosine);
     const Vector turned_u = cosine * u_k + sine * v_k;
     const Vector turned_v = cosine * v_k - sine * u_k;
     store(turned_u.x, job.ux + slot);

@@ -70,8 +70,9 @@ static Vec carry(Vec r, Vec t, Vec step, Vec next_t) {
   const Vec second = next_t - (t - (k1 * mirror_t) * mirror);
   const float second_squared = dot(second, second);
   if (second_squared > kSameTangent) result = result - (2.0f / second_squared * dot(second, result)) * second;
-  return result - dot(result, next_t) * next_t;
+  return result;
 }
+static Vec square_up(Vec r, Vec t) { return normalized(r - dot(r, t) * t); }
 
 static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::size_t lane, std::size_t lane_index) {
   const auto slot = [&](int k) { return block.first_slot + kLanes * static_cast<std::size_t>(k) + lane; };
@@ -90,7 +91,7 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
     const Vec next_t = dot(chord, chord) > kShortestStepSquared ? normalized(chord) : t;
     r = carry(r, t, here - before, next_t);
     t = next_t;
-    u = normalized(r);
+    u = square_up(r, t);
     const Vec v = cross(t, u);
     job.ux[slot(k)] = u.x;
     job.uy[slot(k)] = u.y;
@@ -104,7 +105,7 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
 
   const Vec end_t = direction_of(transform(job.bones + 16 * insertion.bone, insertion.tangent));
   const Vec end_r = square_direction_of(transform(job.bones + 16 * insertion.bone, insertion.reference), end_t);
-  const Vec wanted = carry(end_r, end_t, Vec{0.0f, 0.0f, 0.0f}, t);
+  const Vec wanted = square_up(carry(end_r, end_t, Vec{0.0f, 0.0f, 0.0f}, t), t);
   float twist = __builtin_atan2f(dot(cross(t, u), wanted), dot(u, wanted));
   const float last = job.restart_twist ? 0.0f : job.twist[lane_index];
   twist += 6.2831853071795865f * __builtin_rintf((last - twist) / 6.2831853071795865f);

@@ -24,6 +24,21 @@ TEST(WideTrigonometry, SinesAndCosinesOverManyTurns) {
   }
 }
 
+TEST(WideTrigonometry, NearZeroGivesTheSameBits) {
+  for (int i = -780; i <= 780; ++i) {
+    WideFloat<4> sine, cosine, near_sine, near_cosine;
+    sine_cosine(broadcast<4>(0.001f * static_cast<float>(i)), sine, cosine);
+    sine_cosine_near_zero(broadcast<4>(0.001f * static_cast<float>(i)), near_sine, near_cosine);
+    std::array<float, 4> a, b;
+    store(sine, a.data());
+    store(near_sine, b.data());
+    EXPECT_EQ(a, b) << i;
+    store(cosine, a.data());
+    store(near_cosine, b.data());
+    EXPECT_EQ(a, b) << i;
+  }
+}
+
 TEST(WideTrigonometry, ArcTangentInAllQuadrants) {
   for (int i = 0; i < 3600; ++i) {
     const double angle = 0.1 * 3.14159265358979 / 180.0 * (i - 1800 + 0.5);
