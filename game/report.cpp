@@ -6,26 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/content/quote_json.hpp"
+
 namespace fascicle::game {
-namespace {
-
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
-}  // namespace
-
 void Report::begin_frame() {
   ++frames_;
   for (Metric& metric : metrics_) metric.values.resize(frames_, std::numeric_limits<double>::quiet_NaN());
@@ -42,9 +25,9 @@ void Report::record(std::string_view name, double value) {
 
 std::string Report::to_json(std::string_view scene, std::uint64_t hash) const {
   std::string out = fmt::format("{{\n  \"scene\": {},\n  \"frames\": {},\n  \"hash\": \"{:016x}\",\n  \"metrics\": {{",
-                                quoted(scene), frames_, hash);
+                                quote_json(scene), frames_, hash);
   for (std::size_t i = 0; i < metrics_.size(); ++i) {
-    out += fmt::format("{}\n    {}: [", i ? "," : "", quoted(metrics_[i].name));
+    out += fmt::format("{}\n    {}: [", i ? "," : "", quote_json(metrics_[i].name));
     for (std::size_t f = 0; f < metrics_[i].values.size(); ++f) {
       if (f) out += ", ";
       const double value = metrics_[i].values[f];

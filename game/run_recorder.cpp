@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/content/file_text.hpp"
 #include "engine/ecs/monotonic_clock.hpp"
-#include "engine/loop/write_file.hpp"
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
@@ -17,9 +17,10 @@ std::size_t warm_up_frames(std::uint64_t total) {
   return total == 0 ? 30 : static_cast<std::size_t>(std::min<std::uint64_t>(30, total / 10));
 }
 
-void complain(std::string_view what, const std::string& file, const std::error_code& error) {
-  std::fprintf(stderr, "%s: the %.*s could not be written: %s; check that the folder exists and is writable\n",
-               file.c_str(), static_cast<int>(what.size()), what.data(), error.message().c_str());
+// Prints what went wrong, and says whether nothing did.
+bool explain(const Diagnostics& written) {
+  if (!written.ok()) std::fputs(to_text(written).c_str(), stderr);
+  return written.ok();
 }
 
 }  // namespace
@@ -92,30 +93,16 @@ void RunRecorder::write_picture(const Image& image) {
   picture_failed_ = !written.ok();
 }
 
-bool RunRecorder::write_report(const Simulation& simulation) const {
-  const std::error_code error =
-      write_file_atomically(options_.report_file, report_.to_json(simulation.scene().name, simulation.hash()));
-  if (error) complain("report", options_.report_file, error);
-  return !error;
-}
-
 int RunRecorder::finish(Simulation& simulation) {
   bool written = !picture_failed_;
   stats_.set_memory(simulation.world().memory_by_component());
   if (options_.detail) stats_.add_rows(simulation.world().resource<CostLedger>().statistics());
-  if (!options_.stats_file.empty()) {
-    if (const std::error_code error = stats_.write(options_.stats_file)) {
-      complain("statistics", options_.stats_file, error);
-      written = false;
-    }
+  if (!options_.stats_file.empty()) written &= explain(stats_.write(options_.stats_file));
+  if (trace_) written &= explain(trace_->write(options_.trace_file));
+  if (!options_.report_file.empty()) {
+    written &= explain(write_text_atomically(options_.report_file,
+                                             report_.to_json(simulation.scene().name, simulation.hash())));
   }
-  if (trace_) {
-    if (const std::error_code error = trace_->write(options_.trace_file)) {
-      complain("trace", options_.trace_file, error);
-      written = false;
-    }
-  }
-  if (!options_.report_file.empty()) written = write_report(simulation) && written;
   if (options_.headless) std::fputs(stats_.to_table().c_str(), stdout);
   if (options_.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(simulation.hash()));
   return written ? kExitOk : kExitNoOutput;

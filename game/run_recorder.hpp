@@ -37,7 +37,6 @@ class RunRecorder {
 
  private:
   void announce_items(Simulation& simulation);
-  bool write_report(const Simulation& simulation) const;
 
   const GameOptions& options_;
   FrameStats stats_;

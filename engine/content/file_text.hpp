@@ -18,7 +18,4 @@ Result<std::string> read_text_file(const std::filesystem::path& file,
 // missing folders. Returns empty diagnostics, or what went wrong.
 Diagnostics write_text_atomically(const std::filesystem::path& file, std::string_view text);
 
-// `text` as a JSON string with its quotes.
-std::string quote_json(std::string_view text);
-
 }  // namespace fascicle

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "engine/content/file_text.hpp"
+#include "engine/content/quote_json.hpp"
 
 namespace fascicle {
 namespace {

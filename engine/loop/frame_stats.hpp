@@ -18,10 +18,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "engine/content/result.hpp"
 #include "engine/ecs/schedule.hpp"
 #include "engine/ecs/world.hpp"
 #include "engine/loop/cost_ledger.hpp"
@@ -92,7 +92,7 @@ class FrameStats {
   std::string to_csv() const;
   std::string to_json() const;
   // By the extension of `path`: .csv, .json, anything else the table. Whole or not at all.
-  [[nodiscard]] std::error_code write(const std::filesystem::path& path) const;
+  [[nodiscard]] Diagnostics write(const std::filesystem::path& path) const;
 
  private:
   struct Row {

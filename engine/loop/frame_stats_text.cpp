@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "engine/content/file_text.hpp"
+#include "engine/content/quote_json.hpp"
 #include "engine/loop/frame_stats.hpp"
-#include "engine/loop/text_format.hpp"
-#include "engine/loop/write_file.hpp"
+#include "engine/loop/quoted_csv.hpp"
 
 namespace fascicle {
 
@@ -93,7 +94,7 @@ std::string FrameStats::to_json() const {
   fmt::format_to(out, "  \"measuring_percent\": {:.6f},\n  \"notes\": {{", measuring_percent());
   const char* separator = "";
   for (const auto& [name, value] : notes_) {
-    fmt::format_to(out, "{}\n    {}: {}", std::exchange(separator, ","), quoted_json(name), quoted_json(value));
+    fmt::format_to(out, "{}\n    {}: {}", std::exchange(separator, ","), quote_json(name), quote_json(value));
   }
   text += "\n  },\n  \"rows\": [";
   separator = "";
@@ -101,7 +102,7 @@ std::string FrameStats::to_json() const {
     fmt::format_to(out,
                    "{}\n    {{\"kind\": \"{}\", \"name\": {}, \"frames\": {}, \"min_ms\": {:.6f}, \"mean_ms\": {:.6f}, "
                    "\"p50_ms\": {:.6f}, \"p95_ms\": {:.6f}, \"p99_ms\": {:.6f}, \"max_ms\": {:.6f}}}",
-                   std::exchange(separator, ","), to_text(row.kind), quoted_json(row.name), row.frames, row.min_ms,
+                   std::exchange(separator, ","), to_text(row.kind), quote_json(row.name), row.frames, row.min_ms,
                    row.mean_ms, row.p50_ms, row.p95_ms, row.p99_ms, row.max_ms);
   }
   text += "\n  ],\n  \"items\": [";
@@ -110,23 +111,23 @@ std::string FrameStats::to_json() const {
     fmt::format_to(out,
                    "{}\n    {{\"system\": {}, \"owner\": {}, \"item\": {}, \"frames\": {}, \"min_ms\": {:.6f}, "
                    "\"mean_ms\": {:.6f}, \"max_ms\": {:.6f}}}",
-                   std::exchange(separator, ","), quoted_json(row.system), quoted_json(row.owner),
-                   quoted_json(row.item), row.frames, row.min_ms, row.mean_ms, row.max_ms);
+                   std::exchange(separator, ","), quote_json(row.system), quote_json(row.owner),
+                   quote_json(row.item), row.frames, row.min_ms, row.mean_ms, row.max_ms);
   }
   text += "\n  ],\n  \"memory\": [";
   separator = "";
   for (const ecs::ComponentMemory& component : memory_) {
     fmt::format_to(out, "{}\n    {{\"component\": {}, \"count\": {}, \"bytes\": {}}}", std::exchange(separator, ","),
-                   quoted_json(component.name), component.count, component.bytes);
+                   quote_json(component.name), component.count, component.bytes);
   }
   return text + "\n  ]\n}\n";
 }
 
-std::error_code FrameStats::write(const std::filesystem::path& path) const {
+Diagnostics FrameStats::write(const std::filesystem::path& path) const {
   const std::filesystem::path extension = path.extension();
-  if (extension == ".csv") return write_file_atomically(path, to_csv());
-  if (extension == ".json") return write_file_atomically(path, to_json());
-  return write_file_atomically(path, to_table());
+  if (extension == ".csv") return write_text_atomically(path, to_csv());
+  if (extension == ".json") return write_text_atomically(path, to_json());
+  return write_text_atomically(path, to_table());
 }
 
 }  // namespace fascicle

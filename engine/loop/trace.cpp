@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "engine/content/file_text.hpp"
+#include "engine/content/quote_json.hpp"
 #include "engine/ecs/monotonic_clock.hpp"
-#include "engine/loop/text_format.hpp"
-#include "engine/loop/write_file.hpp"
 
 namespace fascicle {
 
@@ -94,7 +94,7 @@ void Trace::record(std::span<const ecs::SystemTiming> timings) {
 
 std::string Trace::to_json() const {
   std::vector<std::string> quoted;
-  for (const std::string* text : texts_) quoted.push_back(quoted_json(*text));
+  for (const std::string* text : texts_) quoted.push_back(quote_json(*text));
 
   std::string text = fmt::format(
       "{{\"displayTimeUnit\":\"ms\",\"otherData\":{{\"dropped_events\":\"{}\"}},\"traceEvents\":[\n"
@@ -106,7 +106,7 @@ std::string Trace::to_json() const {
     fmt::format_to(out,
                    ",\n{{\"ph\":\"M\",\"name\":\"thread_name\",\"pid\":{0},\"tid\":{1},"
                    "\"args\":{{\"name\":{2}}}}}",
-                   kProcess, thread, quoted_json(name));
+                   kProcess, thread, quote_json(name));
     fmt::format_to(out,
                    ",\n{{\"ph\":\"M\",\"name\":\"thread_sort_index\",\"pid\":{0},\"tid\":{1},"
                    "\"args\":{{\"sort_index\":{1}}}}}",
@@ -138,6 +138,6 @@ std::string Trace::to_json() const {
   return text + "\n]}\n";
 }
 
-std::error_code Trace::write(const std::filesystem::path& path) const { return write_file_atomically(path, to_json()); }
+Diagnostics Trace::write(const std::filesystem::path& path) const { return write_text_atomically(path, to_json()); }
 
 }  // namespace fascicle

@@ -10,9 +10,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
+#include "engine/content/result.hpp"
 #include "engine/ecs/schedule.hpp"
 
 namespace fascicle {
@@ -41,7 +41,7 @@ class Trace {
 
   std::string to_json() const;
   // Whole or not at all.
-  [[nodiscard]] std::error_code write(const std::filesystem::path& path) const;
+  [[nodiscard]] Diagnostics write(const std::filesystem::path& path) const;
 
  private:
   enum class Kind : std::uint8_t { kComplete, kCounter, kMark };

@@ -11,7 +11,7 @@
 
 #include "engine/animation/joint_model_reader.hpp"
 #include "engine/animation/joint_model_writer.hpp"
-#include "engine/content/file_text.hpp"
+#include "engine/content/quote_json.hpp"
 #include "engine/content/json_reader.hpp"
 
 namespace fascicle::muscle {

@@ -1,4 +1,5 @@
 #include "engine/content/file_text.hpp"
+#include "engine/content/quote_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

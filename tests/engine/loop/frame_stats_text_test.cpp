@@ -117,14 +117,15 @@ TEST(FrameStatsText, WriteGoesByExtension) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fascicle_frame_stats";
   std::filesystem::create_directories(folder);
   const auto written = [&](const char* name) {
-    EXPECT_FALSE(stats.write(folder / name));
+    EXPECT_TRUE(stats.write(folder / name).ok());
     std::ifstream file(folder / name, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   EXPECT_EQ(written("s.csv"), stats.to_csv());
   EXPECT_EQ(written("s.json"), stats.to_json());
   EXPECT_EQ(written("s.txt"), stats.to_table());
-  EXPECT_TRUE(stats.write(folder / "none" / "s.csv"));
+  EXPECT_TRUE(stats.write(folder / "new" / "s.csv").ok()) << "missing folders are made";
+  EXPECT_FALSE(stats.write(folder / "s.csv" / "below").ok());
   std::filesystem::remove_all(folder);
 }
 

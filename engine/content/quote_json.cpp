@@ -1,4 +1,4 @@
-#include "engine/loop/text_format.hpp"
+#include "engine/content/quote_json.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-std::string quoted_json(std::string_view text) {
+std::string quote_json(std::string_view text) {
   std::string result = "\"";
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
@@ -43,22 +43,14 @@ std::string quoted_json(std::string_view text) {
     } else if (c == '"' || c == '\\') {
       result += '\\';
       result += c;
+    } else if (c == '\n' || c == '\r' || c == '\t') {
+      result += c == '\n' ? "\\n" : c == '\r' ? "\\r" : "\\t";
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       fmt::format_to(std::back_inserter(result), "\\u{:04x}", static_cast<unsigned>(c));
     } else {
       result += text.substr(0, length);
     }
     text.remove_prefix(length == 0 ? 1 : length);
-  }
-  return result + '"';
-}
-
-std::string quoted_csv(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
   }
   return result + '"';
 }
