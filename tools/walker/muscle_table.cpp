@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kSpecificTension = 610000.0f;  // N/m^2
 constexpr auto kConditional = PointKind::kConditional;
-[[maybe_unused]] constexpr auto kExtra = PointKind::kExtra;
+constexpr auto kExtra = PointKind::kExtra;
 
 PathPoint pelvis(float x, float y, float z, PointKind kind = PointKind::kPublished) {
   return {"pelvis", from_opensim({x, y, z}), kind};
@@ -87,7 +87,8 @@ std::vector<MuscleSpec> hip_muscles() {
         .origin_width = 12, .origin_thickness = 4, .insertion_width = 13, .insertion_thickness = 3.5f,
         .outward_origin = {-1, 0, 0}, .outward_insertion = {-1, 0, 0.2f}, .middle_shift = {-2, -3, 0}}},
       {"inferior_gemellus_r", 164, 0.024f, 0.039f, 0.0f,
-       {pelvis(-0.1133f, -0.082f, 0.0714f), femur(-0.0142f, -0.0033f, 0.0443f)},
+       {pelvis(-0.1133f, -0.082f, 0.0714f), femur(-0.0195f, -0.0024f, 0.0352f, kExtra),
+        femur(-0.0142f, -0.0033f, 0.0443f)},
        {.begin = 0.0f, .peak = 0.4f, .end = 0.8f, .aspect = 2.2f, .wrap = 0.8f, .skew = 0.2f, .lift = 0.9f,
         .origin_width = 6, .origin_thickness = 3, .insertion_width = 3, .insertion_thickness = 2,
         .outward_origin = {-1, 0.2f, 0}, .outward_insertion = {-1, 0.4f, 0}, .middle_shift = {-4, 0, 0},

@@ -49,13 +49,13 @@ void add_hip_bone(Solid& solid) {
   solid.add_tube({knot_mm(-52, -58, 63, 10), knot_mm(-43, -67, 46, 8), knot_mm(-35, -76, 26, 7), knot_mm(-42, -78, 6, 8)});
   solid.add_tube({knot_mm(-42, -78, 5, 8), knot_mm(-54, -96, 5, 7)});
   solid.add_tube({knot_mm(-54, -96, 6, 7), knot_mm(-66, -109, 17, 6.2f), knot_mm(-85, -117, 30, 6.5f),
-                  knot_mm(-104, -111, 43, 8.5f), knot_mm(-116, -101, 59, 13)});
-  solid.add_tube({knot_mm(-101, -64, 69, 12), knot_mm(-115, -82, 62, 11.5f), knot_mm(-117, -100, 60, 13)});
+                  knot_mm(-104, -111, 43, 8.5f), knot_mm(-116, -100, 58.5f, 11.8f)});
+  solid.add_tube({knot_mm(-101, -64, 69, 12), knot_mm(-115, -82, 62, 11.5f), knot_mm(-117, -99, 59.5f, 12)});
   solid.add_tube({knot_mm(-104, -60, 62, 9), knot_mm(-124, -54, 53, 3.5f)});
 }
 
 void add_sacrum(Solid& solid) {
-  const Knot wing_top = knot_mm(-114, 56, 36, 11), wing_low = knot_mm(-124, 24, 36, 10);
+  const Knot wing_top = knot_mm(-114, 56, 39, 11), wing_low = knot_mm(-124, 24, 39, 10);
   const Knot middle_top = knot_mm(-108, 52, 0, 17), s2 = knot_mm(-124, 30, 0, 16);
   const Knot s3 = knot_mm(-142, 8, 0, 12), s3_side = knot_mm(-141, 6, 19, 8);
   const Knot s4 = knot_mm(-156, -13, 0, 9), s4_side = knot_mm(-156, -14, 10, 6.5f);
@@ -63,6 +63,11 @@ void add_sacrum(Solid& solid) {
                    {s3, s3_side, s4}, {s3_side, s4_side, s4}}});
   solid.add_tube({s4, knot_mm(-164, -28, 0, 6.5f), knot_mm(-163, -41, 0, 4)});  // coccyx
   solid.add_tube({knot_mm(-134, 60, 0, 4.5f), knot_mm(-150, 38, 0, 4.5f), knot_mm(-163, 12, 0, 4), knot_mm(-168, -8, 0, 3.5f)});
+  for (const glm::vec3& foramen : {glm::vec3(-117, 40, 19), glm::vec3(-131, 18, 15), glm::vec3(-147, -3, 11)}) {
+    const glm::vec3 through(15.0f, -11.0f, 0.0f);
+    const glm::vec3 front = foramen + through, back = foramen - through;
+    solid.remove(RoundCone{knot_mm(front.x, front.y, front.z, 3.8f), knot_mm(back.x, back.y, back.z, 2.6f)});
+  }
   solid.add(Ellipsoid{from_opensim_mm(-104, 62, 0), glm::vec3(0.026f, 0.007f, 0.018f)});  // promontory
 }
 
