@@ -14,7 +14,9 @@
 namespace fascicle::muscle {
 namespace {
 
-std::uint32_t round_up(std::uint32_t value, std::uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
+std::uint32_t round_up(std::uint32_t value, std::uint32_t multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
 
 glm::dvec3 rest_place(const AttachmentDescription& attachment, std::span<const glm::mat4> bones) {
   return glm::dvec3(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]) *
@@ -55,7 +57,7 @@ void measure_rest(const MuscleDescription& description, std::span<const glm::mat
   muscle.scaled_tendon_slack_length = static_cast<float>(l_tss);
   muscle.tendon_lengths = {static_cast<float>(l_tss * double{description.tendon_at_origin}),
                            static_cast<float>(l_tss * double{description.tendon_at_insertion})};
-  for (int end = 0; end < 2; ++end) muscle.tendon_drawn[end] = muscle.tendon_lengths[static_cast<std::size_t>(end)] > 0.0f;
+  for (std::size_t end = 0; end < 2; ++end) muscle.tendon_drawn[end] = muscle.tendon_lengths[end] > 0.0f;
 }
 
 // Sorted by section count, longest first, so that a block's lanes end at about the same row.

@@ -236,7 +236,8 @@ Diagnostics shape_rest(std::span<const MuscleDescription> descriptions, std::spa
   for (int round = 0; round < 12; ++round) {
     measure_rest_volumes(asset, state);
     for (std::uint32_t m = 0; m < asset.size(); ++m) {
-      if (wanted[m] && state.volumes[m] > 0.0f) scale(asset.muscles[m], std::sqrt(*wanted[m] / double{state.volumes[m]}));
+      if (!wanted[m] || !(state.volumes[m] > 0.0f)) continue;
+      scale(asset.muscles[m], std::sqrt(*wanted[m] / double{state.volumes[m]}));
     }
   }
   measure_rest_volumes(asset, state);

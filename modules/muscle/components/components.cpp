@@ -34,7 +34,9 @@ std::size_t heap_bytes(const CrossSections& sections) {
 
 std::size_t heap_bytes(const Tendons& tendons) {
   std::size_t sum = 0;
-  for (std::size_t end = 0; end < 2; ++end) sum += bytes_of(tendons.segment[end], tendons.fraction[end], tendons.arc[end]);
+  for (std::size_t end = 0; end < 2; ++end) {
+    sum += bytes_of(tendons.segment[end], tendons.fraction[end], tendons.arc[end]);
+  }
   return sum;
 }
 

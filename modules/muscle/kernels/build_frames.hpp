@@ -56,8 +56,8 @@ FASCICLE_INLINE WideVector<N> square_direction_of(WideVector<N> a, WideVector<N>
   return normalized(select(good, (one / square_root(select(good, squared, one))) * a, axis - dot(axis, t) * t));
 }
 
-// `r`, square to `t`, carried to the tangent `next_t` along `step`, of squared length `length_squared`; along no step: by
-// the shortest arc. The chain from r to the result is two dot products long: everything else can be computed ahead.
+// `r`, square to `t`, carried to the tangent `next_t` along `step`, of squared length `length_squared`; along no step:
+// by the shortest arc. The chain from r to the result is two dot products long: everything else can be computed ahead.
 template <int N>
 FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector<N> step, WideFloat<N> length_squared,
                                     WideVector<N> next_t) {
@@ -76,7 +76,7 @@ FASCICLE_INLINE WideVector<N> carry(WideVector<N> r, WideVector<N> t, WideVector
   return select(turns, r_reflected - (k2 * dot(second, r_reflected)) * second, r_reflected);
 }
 
-// `r` made exactly square to `t` and unit, which it is but for rounding: one step of Newton's method does for the length.
+// `r` made exactly square to `t` and unit, which it is but for rounding: a step of Newton's method does for the length.
 template <int N>
 FASCICLE_INLINE WideVector<N> square_up(WideVector<N> r, WideVector<N> t) {
   const WideVector<N> u = r - dot(r, t) * t;

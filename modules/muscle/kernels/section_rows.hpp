@@ -27,6 +27,12 @@ template <int N>
 FASCICLE_INLINE WideVector<N> load_vertices(const SectionRow& row, std::size_t i) {
   return {load<N>(row.x + kRowStart + i), load<N>(row.y + kRowStart + i), load<N>(row.z + kRowStart + i)};
 }
+template <int N>
+FASCICLE_INLINE void store_vertices(WideVector<N> c, std::size_t i, SectionRow& row) {
+  store(c.x, row.x + kRowStart + i);
+  store(c.y, row.y + kRowStart + i);
+  store(c.z, row.z + kRowStart + i);
+}
 template <bool kEight, int N>
 FASCICLE_INLINE WideVector<N> load_differences(const SectionRow& row, std::size_t i) {
   if constexpr (kEight) return {load<N>(row.ex), load<N>(row.ey), load<N>(row.ez)};
@@ -106,9 +112,7 @@ FASCICLE_INLINE void make_row(const SectionsView& view, const SectionLayout& lay
     const WideFloat<N> r = load<N>(radii + i);
     WideVector<N> c = in_plane(frame, r * load<N>(circle.cosines + i), r * load<N>(circle.sines + i));
     c = {c.x + frame.ax, c.y + frame.ay, c.z + frame.az};
-    store(c.x, row.x + kRowStart + i);
-    store(c.y, row.y + kRowStart + i);
-    store(c.z, row.z + kRowStart + i);
+    store_vertices(c, i, row);
     if constexpr (kEight) {
       store(rotate_down(c.x) - rotate_up(c.x), row.ex);
       store(rotate_down(c.y) - rotate_up(c.y), row.ey);

@@ -6,7 +6,7 @@
 // skip it, so the shading does not change as a tendon's end passes by. Where a normal vanishes (radii of zero) it is
 // the radial direction.
 //
-// A muscle is written in one pass, front to back: a window of four rows of vertices stays in the first-level cache.
+// A muscle is written front to back: a window of four sections' vertices stays in the first-level cache.
 // For the kernels' source files only (see engine/math/wide_float.hpp).
 #pragma once
 
@@ -28,10 +28,18 @@ FASCICLE_INLINE WideFloat<N> pack_normal(WideVector<N> n) {
   return from_bits(sum ^ bias);
 }
 
-// Writes vertices i.. of one drawn row, from positions c and differences e, d.
-template <bool kStream, int N>
-FASCICLE_INLINE void write_vertices(WideVector<N> c, WideVector<N> e, WideVector<N> d, const SectionFrame& frame,
-                                    const Circle& circle, std::size_t i, std::size_t count, float* to) {
+// A drawn row between its two passes. Its roots and quotients take longer than all else and are of no use to any
+// instruction nearby: the second pass comes a section later, when they are long done.
+struct ShadedRow {
+  alignas(64) float nx[kMaxSectionVertices + 16], ny[kMaxSectionVertices + 16], nz[kMaxSectionVertices + 16];
+  alignas(64) float inverse[kMaxSectionVertices + 16];  // 511 / |n|
+  const SectionRow* vertices = nullptr;
+};
+
+// First pass, vertices i..: normals, not yet of unit length, from the differences e and d.
+template <int N>
+FASCICLE_INLINE void shade_vertices(WideVector<N> e, WideVector<N> d, const SectionFrame& frame, const Circle& circle,
+                                    std::size_t i, ShadedRow& row) {
   WideVector<N> normal = cross(e, d);
   WideFloat<N> squared = dot(normal, normal);
   const WideInt<N> vanished = squared < broadcast<N>(kSmallestNormalSquared);
@@ -39,18 +47,45 @@ FASCICLE_INLINE void write_vertices(WideVector<N> c, WideVector<N> e, WideVector
     normal = select(vanished, radial_direction<N>(frame, circle, i), normal);
     squared = dot(normal, normal);
   }
-  const WideFloat<N> packed = pack_normal((broadcast<N>(511.0f) / square_root(squared)) * normal);
-  float* vertex = to + kFloatsPerVertex * i;
-  if (count == N) {
-    store_records<kStream>(c.x, c.y, c.z, packed, vertex);
-  } else {
-    alignas(64) float records[kFloatsPerVertex * N];
-    store_records<false>(c.x, c.y, c.z, packed, records);
-    for (std::size_t n = 0; n < count; ++n) {
-      store_four(vertex + 4 * n, load<4>(records + 4 * n).v, kStream);
-    }
-  }
+  store(normal.x, row.nx + i);
+  store(normal.y, row.ny + i);
+  store(normal.z, row.nz + i);
+  store(broadcast<N>(511.0f) / square_root(squared), row.inverse + i);
 }
+
+// Second pass: packs the normals and writes the row.
+template <bool kStream, bool kEight>
+FASCICLE_INLINE void write_row(const ShadedRow& row, std::size_t section_vertices, float* to) {
+  for_lanes<kEight>(section_vertices, [&](auto lanes, std::size_t i, std::size_t count) __attribute__((always_inline)) {
+    constexpr int N = decltype(lanes)::kCount;
+    const WideVector<N> c = load_vertices<N>(*row.vertices, i);
+    const WideVector<N> normal{load<N>(row.nx + i), load<N>(row.ny + i), load<N>(row.nz + i)};
+    const WideFloat<N> packed = pack_normal(load<N>(row.inverse + i) * normal);
+    float* vertex = to + kFloatsPerVertex * i;
+    if (count == N) {
+      store_records<kStream>(c.x, c.y, c.z, packed, vertex);
+    } else {
+      alignas(64) float records[kFloatsPerVertex * N];
+      store_records<false>(c.x, c.y, c.z, packed, records);
+      for (std::size_t n = 0; n < count; ++n) {
+        store_four(vertex + 4 * n, load<4>(records + 4 * n).v, kStream);
+      }
+    }
+  });
+}
+
+// The rows drawn for one section: its own, and those of tendons that end in the segment behind it.
+struct ShadedSection {
+  ShadedRow rows[3];
+  int count = 0;
+};
+
+// What a muscle is written by.
+struct SurfaceScratch {
+  SectionRow window[4];    // sections k - 1 to k + 2
+  SectionRow tendons[2];   // vertices of the tendon sections
+  ShadedSection shaded[2];
+};
 
 // A cap centre.
 template <bool kStream>
@@ -62,50 +97,68 @@ FASCICLE_INLINE void write_centre(const SectionFrame& f, float sign, float* to) 
   store_four(to, _mm_setr_ps(f.ax, f.ay, f.az, packed.v[0]), kStream);
 }
 
-template <bool kStream, bool kEight>
-inline void write_muscle(const SectionsView& view, std::uint32_t muscle, SectionRow* window, float* vertices) {
-  const SectionLayout& layout = view.layouts[muscle];
+// First pass over section k and the tendon sections behind it.
+template <bool kEight>
+FASCICLE_INLINE void shade_section(const SectionsView& view, const SectionLayout& layout, std::uint32_t k,
+                                   SurfaceScratch& scratch, ShadedSection& shaded) {
   const std::size_t count = layout.section_vertices;
   const std::uint32_t last = layout.section_count - 1;
   const Circle circle = view.circles[layout.circle];
-  float* to = vertices + kFloatsPerVertex * std::size_t{layout.first_vertex};
-  const std::size_t row_floats = kFloatsPerVertex * count;
-  const auto row = [&](std::uint32_t k) __attribute__((always_inline)) -> SectionRow& { return window[k & 3]; };
+  const SectionFrame frame = load_frame(view, layout, k);
+  const SectionRow& before = scratch.window[(k == 0 ? 0 : k - 1) & 3];
+  const SectionRow& here = scratch.window[k & 3];
+  const SectionRow& next = scratch.window[(k == last ? last : k + 1) & 3];
+  shaded.count = 1;
+  shaded.rows[0].vertices = &here;
+  for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t) __attribute__((always_inline)) {
+    constexpr int N = decltype(lanes)::kCount;
+    shade_vertices<N>(load_differences<kEight, N>(here, i), load_vertices<N>(next, i) - load_vertices<N>(before, i),
+                      frame, circle, i, shaded.rows[0]);
+  });
 
-  make_row<kEight>(view, layout, 0, row(0));
-  make_row<kEight>(view, layout, 1, row(1));
-  for (std::uint32_t k = 0; k <= last; ++k) {
-    if (k + 2 <= last) make_row<kEight>(view, layout, k + 2, row(k + 2));
-    const SectionFrame frame = load_frame(view, layout, k);
-    const SectionRow& before = row(k == 0 ? 0 : k - 1);
-    const SectionRow& here = row(k);
-    const SectionRow& next = row(k == last ? last : k + 1);
-    for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t n) __attribute__((always_inline)) {
+  for (int end = 0; end < 2; ++end) {
+    if (!layout.tendon_drawn[end] || view.segment[end][layout.lane_index] != static_cast<int>(k)) continue;
+    const float fraction = view.fraction[end][layout.lane_index];
+    const SectionRow& after = scratch.window[(k + 1 == last ? last : k + 2) & 3];
+    ShadedRow& row = shaded.rows[shaded.count++];
+    row.vertices = &scratch.tendons[end];
+    for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t) __attribute__((always_inline)) {
       constexpr int N = decltype(lanes)::kCount;
-      write_vertices<kStream, N>(load_vertices<N>(here, i), load_differences<kEight, N>(here, i),
-                                 load_vertices<N>(next, i) - load_vertices<N>(before, i), frame, circle, i, n, to);
+      const WideFloat<N> s = broadcast<N>(fraction);
+      const auto between = [&](WideVector<N> a, WideVector<N> b) __attribute__((always_inline)) {
+        return a + s * (b - a);
+      };
+      const WideVector<N> c_here = load_vertices<N>(here, i), c_next = load_vertices<N>(next, i);
+      const WideVector<N> d_here = c_next - load_vertices<N>(before, i);
+      const WideVector<N> d_next = load_vertices<N>(after, i) - c_here;
+      store_vertices(between(c_here, c_next), i, scratch.tendons[end]);
+      shade_vertices<N>(between(load_differences<kEight, N>(here, i), load_differences<kEight, N>(next, i)),
+                        between(d_here, d_next), frame, circle, i, row);
     });
-    to += row_floats;
+  }
+}
 
-    for (int end = 0; end < 2; ++end) {
-      if (!layout.tendon_drawn[end] || view.segment[end][layout.lane_index] != static_cast<int>(k)) continue;
-      const float fraction = view.fraction[end][layout.lane_index];
-      const SectionRow& after = row(k + 1 == last ? last : k + 2);
-      for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t n) __attribute__((always_inline)) {
-        constexpr int N = decltype(lanes)::kCount;
-        const WideFloat<N> s = broadcast<N>(fraction);
-        const auto between = [&](WideVector<N> a, WideVector<N> b) __attribute__((always_inline)) {
-          return a + s * (b - a);
-        };
-        const WideVector<N> c_here = load_vertices<N>(here, i), c_next = load_vertices<N>(next, i);
-        const WideVector<N> d_here = c_next - load_vertices<N>(before, i);
-        const WideVector<N> d_next = load_vertices<N>(after, i) - c_here;
-        write_vertices<kStream, N>(between(c_here, c_next),
-                                   between(load_differences<kEight, N>(here, i), load_differences<kEight, N>(next, i)),
-                                   between(d_here, d_next), frame, circle, i, n, to);
-      });
-      to += row_floats;
+template <bool kStream, bool kEight>
+inline void write_muscle(const SectionsView& view, std::uint32_t muscle, SurfaceScratch& scratch, float* vertices) {
+  const SectionLayout& layout = view.layouts[muscle];
+  const std::size_t count = layout.section_vertices;
+  const std::uint32_t last = layout.section_count - 1;
+  float* to = vertices + kFloatsPerVertex * std::size_t{layout.first_vertex};
+  const auto write_section = [&](const ShadedSection& shaded) __attribute__((always_inline)) {
+    for (int i = 0; i < shaded.count; ++i) {
+      write_row<kStream, kEight>(shaded.rows[i], count, to);
+      to += kFloatsPerVertex * count;
     }
+  };
+
+  make_row<kEight>(view, layout, 0, scratch.window[0]);
+  make_row<kEight>(view, layout, 1, scratch.window[1]);
+  scratch.shaded[1].count = 0;  // nothing before the first section
+  for (std::uint32_t k = 0; k <= last + 1; ++k) {
+    // Section k - 1 is written before its window's place is needed again, at k + 3.
+    if (k + 2 <= last) make_row<kEight>(view, layout, k + 2, scratch.window[(k + 2) & 3]);
+    if (k <= last) shade_section<kEight>(view, layout, k, scratch, scratch.shaded[k & 1]);
+    if (k > 0) write_section(scratch.shaded[(k - 1) & 1]);
   }
   write_centre<kStream>(load_frame(view, layout, 0), -1.0f, to);
   write_centre<kStream>(load_frame(view, layout, last), 1.0f, to + kFloatsPerVertex);
@@ -121,15 +174,14 @@ inline void collapse_muscle(const SectionsView& view, std::uint32_t muscle, floa
 
 template <bool kStream>
 inline void write_all(const WriteSurfacesJob& job) {
-  SectionRow window[4];
-  for (SectionRow& row : window) {  // lanes beyond a row's end are computed, if not written: keep them numbers
-    __builtin_memset(&row, 0, sizeof(row));
-  }
+  SurfaceScratch scratch;
+  // Lanes beyond a row's end are computed, if not written: keep them numbers.
+  __builtin_memset(scratch.window, 0, sizeof(scratch.window));
   const SectionsView& view = job.sections;
   for (std::uint32_t muscle = 0; muscle < view.muscle_count; ++muscle) {
     if (view.attached != nullptr && view.attached[muscle] == 0) collapse_muscle(view, muscle, job.vertices);
-    else if (view.layouts[muscle].section_vertices == 8) write_muscle<kStream, true>(view, muscle, window, job.vertices);
-    else write_muscle<kStream, false>(view, muscle, window, job.vertices);
+    else if (view.layouts[muscle].section_vertices == 8) write_muscle<kStream, true>(view, muscle, scratch, job.vertices);
+    else write_muscle<kStream, false>(view, muscle, scratch, job.vertices);
   }
 }
 
