@@ -58,17 +58,17 @@ std::size_t edge_faults(const Indices& indices) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::size_t i = 0; i < indices.size(); ++i) ++edges[{indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]}];
   std::size_t faults = 0;
-  for (const auto& [edge, count] : edges)
-    faults += count != 1 || edges.count({edge.second, edge.first}) == 0 ? 1 : 0;
+  for (const auto& [edge, count] : edges) faults += count != 1 || edges.count({edge.second, edge.first}) == 0 ? 1 : 0;
   return faults;
 }
 
 // Isoperimetric quotient 4 pi A / P^2 (method 2.5) of the largest loop that the plane cuts from a closed mesh.
 double slice_quotient(const TriangleMesh& mesh, const glm::dvec3& point, const glm::dvec3& normal) {
-  const glm::dvec3 u = glm::normalize(glm::cross(normal, std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+  const glm::dvec3 u =
+      glm::normalize(glm::cross(normal, std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 v = glm::cross(normal, u);
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  std::map<Edge, Edge> next;     // a crossed edge to the next one around the loop
+  std::map<Edge, Edge> next;  // a crossed edge to the next one around the loop
   std::map<Edge, glm::dvec2> at;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     Edge in{}, out{};
@@ -80,7 +80,8 @@ double slice_quotient(const TriangleMesh& mesh, const glm::dvec3& point, const g
       if ((da > 0.0) == (db > 0.0)) continue;
       crossed = true;
       const Edge edge{std::min(a, b), std::max(a, b)};
-      const glm::dvec3 p = glm::mix(glm::dvec3(mesh.positions[a]), glm::dvec3(mesh.positions[b]), da / (da - db)) - point;
+      const glm::dvec3 p =
+          glm::mix(glm::dvec3(mesh.positions[a]), glm::dvec3(mesh.positions[b]), da / (da - db)) - point;
       at[edge] = {glm::dot(p, u), glm::dot(p, v)};
       (da > 0.0 ? in : out) = edge;
     }
@@ -136,19 +137,30 @@ TEST(WalkerContent, ExtraPointsHardlyLengthenALine) {
 // gait2392's lengths in its default pose, as OpenSim computes them.
 TEST(WalkerContent, LinesAreAsLongAsInTheSourceModel) {
   FASCICLE_SKIP_WITHOUT_DATA("opensim/reference/gait2392/lengths.csv");
-  const std::map<std::string, std::string> source_names{
-      {"gluteus_medius_1_r", "glut_med1_r"},         {"gluteus_medius_2_r", "glut_med2_r"},
-      {"gluteus_medius_3_r", "glut_med3_r"},         {"gluteus_maximus_1_r", "glut_max1_r"},
-      {"gluteus_maximus_2_r", "glut_max2_r"},        {"gluteus_maximus_3_r", "glut_max3_r"},
-      {"iliacus_r", "iliacus_r"},                    {"psoas_major_r", "psoas_r"},
-      {"quadratus_femoris_r", "quad_fem_r"},         {"inferior_gemellus_r", "gem_r"},
-      {"piriformis_r", "peri_r"},                    {"adductor_magnus_2_r", "add_mag2_r"},
-      {"pectineus_r", "pect_r"},                     {"gracilis_r", "grac_r"},
-      {"sartorius_r", "sar_r"},                      {"tensor_fasciae_latae_r", "tfl_r"},
-      {"biceps_femoris_long_head_r", "bifemlh_r"},   {"biceps_femoris_short_head_r", "bifemsh_r"},
-      {"rectus_femoris_r", "rect_fem_r"},            {"vastus_intermedius_r", "vas_int_r"},
-      {"medial_gastrocnemius_r", "med_gas_r"},       {"soleus_r", "soleus_r"},
-      {"tibialis_posterior_r", "tib_post_r"},        {"tibialis_anterior_r", "tib_ant_r"}};
+  const std::map<std::string, std::string> source_names{{"gluteus_medius_1_r", "glut_med1_r"},
+                                                        {"gluteus_medius_2_r", "glut_med2_r"},
+                                                        {"gluteus_medius_3_r", "glut_med3_r"},
+                                                        {"gluteus_maximus_1_r", "glut_max1_r"},
+                                                        {"gluteus_maximus_2_r", "glut_max2_r"},
+                                                        {"gluteus_maximus_3_r", "glut_max3_r"},
+                                                        {"iliacus_r", "iliacus_r"},
+                                                        {"psoas_major_r", "psoas_r"},
+                                                        {"quadratus_femoris_r", "quad_fem_r"},
+                                                        {"inferior_gemellus_r", "gem_r"},
+                                                        {"piriformis_r", "peri_r"},
+                                                        {"adductor_magnus_2_r", "add_mag2_r"},
+                                                        {"pectineus_r", "pect_r"},
+                                                        {"gracilis_r", "grac_r"},
+                                                        {"sartorius_r", "sar_r"},
+                                                        {"tensor_fasciae_latae_r", "tfl_r"},
+                                                        {"biceps_femoris_long_head_r", "bifemlh_r"},
+                                                        {"biceps_femoris_short_head_r", "bifemsh_r"},
+                                                        {"rectus_femoris_r", "rect_fem_r"},
+                                                        {"vastus_intermedius_r", "vas_int_r"},
+                                                        {"medial_gastrocnemius_r", "med_gas_r"},
+                                                        {"soleus_r", "soleus_r"},
+                                                        {"tibialis_posterior_r", "tib_post_r"},
+                                                        {"tibialis_anterior_r", "tib_ant_r"}};
   std::ifstream file(test::data_folder() / "opensim/reference/gait2392/lengths.csv");
   std::string names, values;
   std::getline(file, names);
@@ -194,7 +206,8 @@ TEST(WalkerContent, LeftMeshesMirrorTheRight) {
     const TriangleMesh& left = *walker().muscle_meshes.at(other);
     ASSERT_EQ(left.positions.size(), mesh->positions.size());
     for (std::size_t i = 0; i < left.positions.size(); ++i)
-      ASSERT_EQ(left.positions[i], glm::vec3(-mesh->positions[i].x, mesh->positions[i].y, mesh->positions[i].z)) << name;
+      ASSERT_EQ(left.positions[i], glm::vec3(-mesh->positions[i].x, mesh->positions[i].y, mesh->positions[i].z))
+          << name;
   }
 }
 

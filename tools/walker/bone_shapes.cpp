@@ -59,7 +59,8 @@ float rest_distance(const std::vector<BoneShape>& shapes, const glm::vec3& p) {
     const glm::vec3 local = p - bones()[static_cast<std::size_t>(shape.bone)].place;
     // A cheap bound first: the box around the solid.
     const glm::vec3 folded = shape.symmetric ? glm::vec3(-std::abs(local.x), local.y, local.z) : local;
-    const glm::vec3 beyond = glm::max(glm::max(shape.solid.low() - folded, folded - shape.solid.high()), glm::vec3(0.0f));
+    const glm::vec3 beyond =
+        glm::max(glm::max(shape.solid.low() - folded, folded - shape.solid.high()), glm::vec3(0.0f));
     if (glm::length(beyond) - 0.003f > d) continue;
     d = std::min(d, shape.solid.distance(folded));
   }
@@ -84,8 +85,8 @@ std::vector<TriangleMesh> mesh_bones(const std::vector<BoneShape>& shapes) {
     const float margin = 4.0f * shape.voxel;
     Box box{shape.solid.low() - margin, shape.solid.high() + margin};
     if (shape.symmetric) box.high.x = -box.low.x;
-    TriangleMesh mesh = mesh_field([&shape](const glm::vec3& p) { return shape.distance(p); }, box, shape.voxel,
-                                   shape.adaptivity);
+    TriangleMesh mesh =
+        mesh_field([&shape](const glm::vec3& p) { return shape.distance(p); }, box, shape.voxel, shape.adaptivity);
     mesh.name = bones()[static_cast<std::size_t>(shape.bone)].name;
     meshes.push_back(mesh);
     const int other = mirrored_bone(shape.bone);

@@ -14,8 +14,8 @@ namespace fascicle::walker {
 struct BoneShape {
   int bone = -1;
   Solid solid{0.004f};
-  bool symmetric = false;     // the solid is the right half (x <= 0) of a bone that crosses the middle
-  float voxel = 0.0032f;      // m, for meshing
+  bool symmetric = false;  // the solid is the right half (x <= 0) of a bone that crosses the middle
+  float voxel = 0.0032f;   // m, for meshing
   float adaptivity = 0.02f;
 
   // Signed distance (m) of a point in the bone's frame.

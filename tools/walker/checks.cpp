@@ -95,8 +95,9 @@ bool inside(const TriangleMesh& mesh, const glm::vec3& p) {
 
 std::string report_meshes(const std::vector<MuscleSpec>& muscles, const std::vector<TriangleMesh>& meshes,
                           const std::vector<std::size_t>& sides, const std::vector<BoneShape>& shapes) {
-  std::string text = fmt::format("{:30} {:>8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>8} {:>9} {}\n", "muscle (right)", "vertices",
-                                 "cm3", "wanted", "q 1/4", "q 1/2", "q 3/4", "mm bone", "line in", "faults");
+  std::string text =
+      fmt::format("{:30} {:>8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>8} {:>9} {}\n", "muscle (right)", "vertices", "cm3",
+                  "wanted", "q 1/4", "q 1/2", "q 3/4", "mm bone", "line in", "faults");
   std::vector<double> quotients;
   std::size_t total = 0, concave = 0, points_out = 0, points = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -105,7 +106,8 @@ std::string report_meshes(const std::vector<MuscleSpec>& muscles, const std::vec
     const std::size_t rims = (mesh.positions.size() - 2) / sides[m];
     double q[3];
     for (int i = 0; i < 3; ++i) {
-      const auto [value, convex] = quotient(mesh, (rims - 1) * static_cast<std::size_t>(i + 1) / 4 * sides[m], sides[m]);
+      const auto [value, convex] =
+          quotient(mesh, (rims - 1) * static_cast<std::size_t>(i + 1) / 4 * sides[m], sides[m]);
       q[i] = value;
       quotients.push_back(value);
       concave += convex ? 0 : 1;
@@ -122,10 +124,10 @@ std::string report_meshes(const std::vector<MuscleSpec>& muscles, const std::vec
     points += of;
     points_out += of - in;
     const MeshFaults faults = find_faults(mesh);
-    text += fmt::format("{:30} {:>8} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>6.2f} {:>8.1f} {:>6}/{:<2} {}{}{}\n", muscles[m].name,
-                        mesh.positions.size(), 1e6 * mesh_volume(mesh), 1e6f * muscles[m].volume(), q[0], q[1], q[2],
-                        1e3f * depth, in, of, faults.open_edges > 0 ? "open " : "", faults.crowded_edges > 0 ? "crowded " : "",
-                        faults.outward ? "" : "inward");
+    text += fmt::format("{:30} {:>8} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>6.2f} {:>8.1f} {:>6}/{:<2} {}{}{}\n",
+                        muscles[m].name, mesh.positions.size(), 1e6 * mesh_volume(mesh), 1e6f * muscles[m].volume(),
+                        q[0], q[1], q[2], 1e3f * depth, in, of, faults.open_edges > 0 ? "open " : "",
+                        faults.crowded_edges > 0 ? "crowded " : "", faults.outward ? "" : "inward");
   }
   std::sort(quotients.begin(), quotients.end());
   double mean = 0.0;
@@ -134,11 +136,12 @@ std::string report_meshes(const std::vector<MuscleSpec>& muscles, const std::vec
     mean += q / static_cast<double>(quotients.size());
     above += q > 0.5 ? 1 : 0;
   }
-  text += fmt::format("both sides: {} vertices; q of {} slices: mean {:.3f}, median {:.3f}, {:.0f} % above 0.5, range {:.2f}..{:.2f}; "
-                      "{} concave; line points outside their mesh: {} of {}\n",
-                      2 * total, quotients.size(), mean, quotients[quotients.size() / 2],
-                      100.0 * static_cast<double>(above) / static_cast<double>(quotients.size()), quotients.front(),
-                      quotients.back(), concave, points_out, points);
+  text += fmt::format(
+      "both sides: {} vertices; q of {} slices: mean {:.3f}, median {:.3f}, {:.0f} % above 0.5, range {:.2f}..{:.2f}; "
+      "{} concave; line points outside their mesh: {} of {}\n",
+      2 * total, quotients.size(), mean, quotients[quotients.size() / 2],
+      100.0 * static_cast<double>(above) / static_cast<double>(quotients.size()), quotients.front(), quotients.back(),
+      concave, points_out, points);
   return text;
 }
 
@@ -155,7 +158,8 @@ std::string report_overlaps(const std::vector<TriangleMesh>& meshes) {
       ++shared[{it->second, m}];
     }
   }
-  std::string text = fmt::format("overlap between muscles: {:.2f} % of {:.0f} cm3\n", 100.0 * static_cast<double>(twice) / static_cast<double>(filled),
+  std::string text = fmt::format("overlap between muscles: {:.2f} % of {:.0f} cm3\n",
+                                 100.0 * static_cast<double>(twice) / static_cast<double>(filled),
                                  static_cast<double>(filled) * kCell * kCell * kCell * 1e6);
   for (const auto& [pair, count] : shared)
     if (count > 12)
@@ -164,13 +168,15 @@ std::string report_overlaps(const std::vector<TriangleMesh>& meshes) {
   return text;
 }
 
-std::string report_lines(const std::vector<MuscleSpec>& muscles, const std::vector<BoneShape>& shapes, const Gait& gait) {
+std::string report_lines(const std::vector<MuscleSpec>& muscles, const std::vector<BoneShape>& shapes,
+                         const Gait& gait) {
   std::string text = fmt::format("{:30} {:>8} {:>8}   worst place\n", "line (right)", "mm rest", "mm walk");
   std::size_t counted = 0, extra = 0;
   std::vector<Pose> poses{rest_pose()};
   for (std::size_t i = 0; i + 1 < gait.poses.size(); i += 3) poses.push_back(gait.poses[i]);
   for (const MuscleSpec& muscle : muscles) {
-    for (std::size_t i = 1; i + 1 < muscle.path.size(); ++i) ++(muscle.path[i].kind == PointKind::kPublished ? counted : extra);
+    for (std::size_t i = 1; i + 1 < muscle.path.size(); ++i)
+      ++(muscle.path[i].kind == PointKind::kPublished ? counted : extra);
     float depth_rest = 0.0f, depth_walk = 0.0f, worst = 0.0f;
     std::string place;
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
@@ -195,9 +201,12 @@ std::string report_lines(const std::vector<MuscleSpec>& muscles, const std::vect
             deepest = std::max(deepest, depth);
             if (depth <= worst) continue;
             worst = depth;
-            const glm::vec3 out = shape.solid.outward(shape.symmetric ? glm::vec3(-std::abs(local.x), local.y, local.z) : local);
-            place = fmt::format("segment {} at {:.0f} mm in {} ({:.1f} {:.1f} {:.1f}) out ({:.2f} {:.2f} {:.2f}) OpenSim mm", i, 1e3f * along,
-                                bones()[bone].name, 1e3f * local.z, 1e3f * local.y, -1e3f * local.x, out.z, out.y, -out.x);
+            const glm::vec3 out =
+                shape.solid.outward(shape.symmetric ? glm::vec3(-std::abs(local.x), local.y, local.z) : local);
+            place = fmt::format(
+                "segment {} at {:.0f} mm in {} ({:.1f} {:.1f} {:.1f}) out ({:.2f} {:.2f} {:.2f}) OpenSim mm", i,
+                1e3f * along, bones()[bone].name, 1e3f * local.z, 1e3f * local.y, -1e3f * local.x, out.z, out.y,
+                -out.x);
           }
         }
         gone += length;

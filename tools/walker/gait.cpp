@@ -19,26 +19,27 @@ struct Key {
   double degrees;
 };
 
-constexpr std::array kHipFlexion{Key{0, 29},   Key{8, 27},   Key{16, 20},   Key{24, 12},   Key{32, 3.5}, Key{40, -4},
-                                 Key{48, -9},  Key{53, -10}, Key{58, -7.5}, Key{64, 0},    Key{70, 10},  Key{77, 21},
-                                 Key{84, 28},  Key{90, 31},  Key{95, 30.5}};
-constexpr std::array kHipAdduction{Key{0, 0.5}, Key{8, 3.5}, Key{15, 5.5}, Key{24, 5},  Key{35, 3.5}, Key{46, 2},
+constexpr std::array kHipFlexion{Key{0, 29},  Key{8, 27},  Key{16, 20},  Key{24, 12},   Key{32, 3.5},
+                                 Key{40, -4}, Key{48, -9}, Key{53, -10}, Key{58, -7.5}, Key{64, 0},
+                                 Key{70, 10}, Key{77, 21}, Key{84, 28},  Key{90, 31},   Key{95, 30.5}};
+constexpr std::array kHipAdduction{Key{0, 0.5}, Key{8, 3.5}, Key{15, 5.5},  Key{24, 5},  Key{35, 3.5}, Key{46, 2},
                                    Key{54, -1}, Key{62, -5}, Key{68, -5.5}, Key{78, -3}, Key{90, -0.5}};
 constexpr std::array kHipRotation{Key{0, -1}, Key{15, 3}, Key{40, 2}, Key{58, -2}, Key{75, -3}, Key{90, -2.5}};
-constexpr std::array kKneeFlexion{Key{0, 4},   Key{5, 9},   Key{10, 15.5}, Key{15, 18},  Key{21, 16.5}, Key{30, 10.5},
-                                  Key{38, 6},  Key{44, 5},  Key{50, 9},    Key{55, 18},  Key{60, 34},   Key{66, 52},
-                                  Key{71, 60}, Key{75, 59}, Key{81, 46},   Key{88, 22},  Key{94, 6},    Key{97, 3}};
-constexpr std::array kAnkle{Key{0, 0},   Key{4, -3.5}, Key{8, -4.5}, Key{14, -0.5}, Key{22, 4},  Key{32, 7},
-                            Key{42, 9.5}, Key{47, 9},  Key{52, 4},   Key{57, -7},   Key{62, -17}, Key{65, -17.5},
-                            Key{71, -9}, Key{78, -1},  Key{86, 2.5}, Key{94, 1}};
-constexpr std::array kToes{Key{0, 12}, Key{7, 2},  Key{14, 0},  Key{36, 0},  Key{44, 6},  Key{51, 20},
+constexpr std::array kKneeFlexion{Key{0, 4},   Key{5, 9},   Key{10, 15.5}, Key{15, 18}, Key{21, 16.5}, Key{30, 10.5},
+                                  Key{38, 6},  Key{44, 5},  Key{50, 9},    Key{55, 18}, Key{60, 34},   Key{66, 52},
+                                  Key{71, 60}, Key{75, 59}, Key{81, 46},   Key{88, 22}, Key{94, 6},    Key{97, 3}};
+constexpr std::array kAnkle{Key{0, 0},    Key{4, -3.5}, Key{8, -4.5}, Key{14, -0.5}, Key{22, 4},   Key{32, 7},
+                            Key{42, 9.5}, Key{47, 9},   Key{52, 4},   Key{57, -7},   Key{62, -17}, Key{65, -17.5},
+                            Key{71, -9},  Key{78, -1},  Key{86, 2.5}, Key{94, 1}};
+constexpr std::array kToes{Key{0, 12},  Key{7, 2},   Key{14, 0}, Key{36, 0}, Key{44, 6}, Key{51, 20},
                            Key{58, 28}, Key{63, 16}, Key{69, 6}, Key{78, 8}, Key{90, 14}};
 constexpr std::array kPelvisTilt{Key{0, 1.2}, Key{12, 0}, Key{25, -1}, Key{38, 0.2}};  // twice a cycle
 // Right side up.
-constexpr std::array kPelvisObliquity{Key{0, 0}, Key{10, 3.5}, Key{18, 4}, Key{30, 1.5}, Key{50, 0}, Key{60, -3.5},
-                                      Key{68, -4}, Key{80, -1.5}};
+constexpr std::array kPelvisObliquity{Key{0, 0},  Key{10, 3.5},  Key{18, 4},  Key{30, 1.5},
+                                      Key{50, 0}, Key{60, -3.5}, Key{68, -4}, Key{80, -1.5}};
 // Right side forward.
-constexpr std::array kPelvisRotation{Key{0, 4.5}, Key{12, 3.5}, Key{30, -0.5}, Key{50, -4.5}, Key{62, -3.5}, Key{80, 0.5}};
+constexpr std::array kPelvisRotation{Key{0, 4.5},   Key{12, 3.5},  Key{30, -0.5},
+                                     Key{50, -4.5}, Key{62, -3.5}, Key{80, 0.5}};
 
 // Catmull-Rom over uneven keys, periodic in `period` percent; radians.
 double curve(std::span<const Key> keys, double phase, double period = 100.0) {
@@ -56,8 +57,8 @@ double curve(std::span<const Key> keys, double phase, double period = 100.0) {
   const double slope_b = h * (c.degrees - a.degrees) / (c.percent - a.percent);
   const double slope_c = h * (d.degrees - b.degrees) / (d.percent - b.percent);
   const double t2 = t * t, t3 = t2 * t;
-  const double degrees = (2 * t3 - 3 * t2 + 1) * b.degrees + (t3 - 2 * t2 + t) * slope_b + (3 * t2 - 2 * t3) * c.degrees +
-                         (t3 - t2) * slope_c;
+  const double degrees = (2 * t3 - 3 * t2 + 1) * b.degrees + (t3 - 2 * t2 + t) * slope_b +
+                         (3 * t2 - 2 * t3) * c.degrees + (t3 - t2) * slope_c;
   return degrees * std::numbers::pi / 180.0;
 }
 
@@ -95,8 +96,8 @@ Pose gait_pose(double phase) {
                      turn({0, 0, 1}, curve(kPelvisTilt, phase, 50.0));
   // The trunk stays nearly level: its stump undoes half of the pelvis's turns.
   const auto torso = static_cast<std::size_t>(find_bone("torso"));
-  pose.rotation[torso] = turn({1, 0, 0}, 0.4 * curve(kPelvisObliquity, phase)) *
-                         turn({0, 1, 0}, -0.4 * curve(kPelvisRotation, phase));
+  pose.rotation[torso] =
+      turn({1, 0, 0}, 0.4 * curve(kPelvisObliquity, phase)) * turn({0, 1, 0}, -0.4 * curve(kPelvisRotation, phase));
   pose_leg(pose, "_r", phase);
   pose_leg(pose, "_l", phase + 0.5);
   return pose;

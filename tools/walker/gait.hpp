@@ -34,7 +34,8 @@ Gait make_gait(F&& lowest, float floor) {
     low.push_back(lowest(gait.poses.back()));
   }
   const std::vector<float> rise = pelvis_heights(low, floor);
-  for (int i = 0; i < kGaitKeys; ++i) gait.poses[static_cast<std::size_t>(i)].translation[0].y += rise[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kGaitKeys; ++i)
+    gait.poses[static_cast<std::size_t>(i)].translation[0].y += rise[static_cast<std::size_t>(i)];
   gait.poses.push_back(gait.poses.front());
   for (int i = 0; i <= kGaitKeys; ++i) gait.times.push_back(kCycleSeconds * static_cast<float>(i) / kGaitKeys);
   return gait;

@@ -48,7 +48,8 @@ void write_obj(const std::filesystem::path& file, const std::vector<TriangleMesh
     out << "o " << mesh.name << '\n';
     for (const glm::vec3& p : mesh.positions) out << fmt::format("v {:.6f} {:.6f} {:.6f}\n", p.x, p.y, p.z);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-      out << fmt::format("f {} {} {}\n", first + mesh.indices[i], first + mesh.indices[i + 1], first + mesh.indices[i + 2]);
+      out << fmt::format("f {} {} {}\n", first + mesh.indices[i], first + mesh.indices[i + 1],
+                         first + mesh.indices[i + 2]);
     first += mesh.positions.size();
   }
   for (const std::vector<glm::vec3>& line : lines) {
@@ -69,7 +70,8 @@ std::vector<std::vector<glm::vec3>> action_lines(const std::vector<MuscleSpec>& 
       for (const PathPoint& point : muscle.path) {
         const int right_bone = find_bone(point.bone);
         const auto bone = static_cast<std::size_t>(left ? mirrored_bone(right_bone) : right_bone);
-        const glm::vec3 local = left ? glm::vec3(-point.position.x, point.position.y, point.position.z) : point.position;
+        const glm::vec3 local =
+            left ? glm::vec3(-point.position.x, point.position.y, point.position.z) : point.position;
         lines.back().push_back(placed.place[bone] + placed.rotation[bone] * local);
       }
     }
@@ -83,7 +85,8 @@ int make(const std::filesystem::path& out, const std::filesystem::path& obj, boo
   const std::vector<TriangleMesh> bone_meshes = mesh_bones(shapes);
   for (const TriangleMesh& mesh : bone_meshes) {
     const MeshFaults faults = find_faults(mesh);
-    fmt::print("bone {:10} {:>6} vertices{}{}\n", mesh.name, mesh.positions.size(), faults.open_edges > 0 ? ", open" : "",
+    fmt::print("bone {:10} {:>6} vertices{}{}\n", mesh.name, mesh.positions.size(),
+               faults.open_edges > 0 ? ", open" : "",
                faults.crowded_edges > 0 ? fmt::format(", {} crowded edges", faults.crowded_edges) : "");
   }
   const Gait gait = make_gait([&bone_meshes](const Pose& pose) { return lowest_foot(pose, bone_meshes); }, kSole);
@@ -135,9 +138,9 @@ int make(const std::filesystem::path& out, const std::filesystem::path& obj, boo
   }
   if (out.empty() || skip_skin) return 0;
   std::filesystem::create_directories(out);
-  const bool written = write_meshes(out / "bones.glb", bone_meshes) && write_meshes(out / "muscles.glb", muscle_meshes) &&
-                       write_walker(out / "walker.glb", skin, gait) &&
-                       write_character(out / "walker.character.json", muscles);
+  const bool written =
+      write_meshes(out / "bones.glb", bone_meshes) && write_meshes(out / "muscles.glb", muscle_meshes) &&
+      write_walker(out / "walker.glb", skin, gait) && write_character(out / "walker.character.json", muscles);
   if (!written) {
     fmt::print(stderr, "{}: cannot be written; give a folder that can be\n", out.string());
     return 1;

@@ -13,11 +13,11 @@ namespace {
 constexpr int kMarchSteps = 14;
 constexpr int kBisections = 6;
 constexpr int kGrowRounds = 5;
-constexpr float kBoneGap = 0.0004f;      // m, between a mesh and bone
-constexpr float kMiddleGap = 0.001f;     // m, between a mesh and the plane of symmetry
-constexpr float kNeighbourGap = 0.02f;   // of normalised radius, between two meshes
-constexpr float kLeastRadius = 0.16f;    // normalised: a rim never closes to a point
-constexpr float kEndReach = 0.012f;      // m from an end, over which the mesh may sink into its bone
+constexpr float kBoneGap = 0.0004f;     // m, between a mesh and bone
+constexpr float kMiddleGap = 0.001f;    // m, between a mesh and the plane of symmetry
+constexpr float kNeighbourGap = 0.02f;  // of normalised radius, between two meshes
+constexpr float kLeastRadius = 0.16f;   // normalised: a rim never closes to a point
+constexpr float kEndReach = 0.012f;     // m from an end, over which the mesh may sink into its bone
 
 using Rim = std::vector<float>;  // normalised radius for each side
 

@@ -11,9 +11,9 @@ namespace fascicle::walker {
 namespace {
 
 constexpr int kRelaxSteps = 160;
-constexpr float kSunkEnd = 0.004f;  // m: a mesh starts and ends this deep in its bone, as attachments have an area
+constexpr float kSunkEnd = 0.004f;     // m: a mesh starts and ends this deep in its bone, as attachments have an area
 constexpr float kSidewaysDrag = 0.6f;  // flat bellies rather stack than slip aside
-constexpr float kEndShare = 0.10f;  // of the length at each end, where the curve is held to the attachment
+constexpr float kEndShare = 0.10f;     // of the length at each end, where the curve is held to the attachment
 
 float smooth_step(float t) {
   t = std::clamp(t, 0.0f, 1.0f);
@@ -23,7 +23,8 @@ float smooth_step(float t) {
 // How much of the belly is present at fraction s: 0 in the tendons, 1 at the peak.
 float belly_share(const BellyShape& shape, float s) {
   if (s <= shape.begin || s >= shape.end) return 0.0f;
-  const float t = s < shape.peak ? (s - shape.begin) / (shape.peak - shape.begin) : (shape.end - s) / (shape.end - shape.peak);
+  const float t =
+      s < shape.peak ? (s - shape.begin) / (shape.peak - shape.begin) : (shape.end - s) / (shape.end - shape.peak);
   return std::pow(std::sin(0.5f * glm::pi<float>() * std::clamp(t, 0.0f, 1.0f)), 1.15f);
 }
 
@@ -57,9 +58,12 @@ void smooth(std::vector<glm::vec3>& points, int passes) {
 glm::vec3 shift_at(const BellyShape& shape, float s) {
   constexpr float kTendon = 0.85f;  // where tendon_shift holds
   glm::vec3 shift;
-  if (s < 0.5f) shift = glm::mix(shape.origin_shift, shape.middle_shift, smooth_step(2.0f * s));
-  else if (s < kTendon) shift = glm::mix(shape.middle_shift, shape.tendon_shift, smooth_step((s - 0.5f) / (kTendon - 0.5f)));
-  else shift = glm::mix(shape.tendon_shift, shape.insertion_shift, smooth_step((s - kTendon) / (1.0f - kTendon)));
+  if (s < 0.5f)
+    shift = glm::mix(shape.origin_shift, shape.middle_shift, smooth_step(2.0f * s));
+  else if (s < kTendon)
+    shift = glm::mix(shape.middle_shift, shape.tendon_shift, smooth_step((s - 0.5f) / (kTendon - 0.5f)));
+  else
+    shift = glm::mix(shape.tendon_shift, shape.insertion_shift, smooth_step((s - kTendon) / (1.0f - kTendon)));
   return 0.001f * from_opensim(shift);
 }
 
@@ -73,21 +77,25 @@ void shape_sections(Belly& belly) {
   const float step = belly.length / static_cast<float>(n - 1);
 
   const float a0 = shape.origin_width * shape.origin_thickness, a1 = shape.insertion_width * shape.insertion_thickness;
-  const auto share_of = [&](std::size_t i) { return belly_share(shape, static_cast<float>(i) / static_cast<float>(n - 1)); };
+  const auto share_of = [&](std::size_t i) {
+    return belly_share(shape, static_cast<float>(i) / static_cast<float>(n - 1));
+  };
   double ends_volume = 0.0, belly_volume = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const float s = static_cast<float>(i) / static_cast<float>(n - 1);
     ends_volume += share_of(i) > 0.0f ? glm::pi<float>() * 1e-6f * glm::mix(a0, a1, s) * step : 0.0f;
     belly_volume += glm::pi<float>() * share_of(i) * step;
   }
-  const float peak_area = std::max(0.0f, static_cast<float>((belly.muscle->volume() - 0.5 * ends_volume) / belly_volume));
+  const float peak_area =
+      std::max(0.0f, static_cast<float>((belly.muscle->volume() - 0.5 * ends_volume) / belly_volume));
 
   for (std::size_t i = 0; i < n; ++i) {
     Section& section = belly.sections[i];
     const float s = static_cast<float>(i) / static_cast<float>(n - 1);
     const std::size_t before = i < 2 ? 0 : i - 2, after = std::min(i + 2, n - 1);
     section.tangent = glm::normalize(belly.sections[after].centre - belly.sections[before].centre);
-    const glm::vec3 out = from_opensim(glm::mix(glm::normalize(shape.outward_origin), glm::normalize(shape.outward_insertion), s));
+    const glm::vec3 out =
+        from_opensim(glm::mix(glm::normalize(shape.outward_origin), glm::normalize(shape.outward_insertion), s));
     section.v = glm::normalize(out - glm::dot(out, section.tangent) * section.tangent);
     section.u = glm::cross(section.v, section.tangent);
     const float share = share_of(i);
@@ -196,7 +204,8 @@ float Belly::normalised_radius(const glm::vec3& p) const {
   const Section& at = sections[nearest];
   if (best > 16.0f * at.w * at.w) return 4.0f;
   const float along = glm::dot(p - at.centre, at.tangent);
-  const std::size_t next = along >= 0.0f ? std::min(nearest + 1, sections.size() - 1) : (nearest == 0 ? 0 : nearest - 1);
+  const std::size_t next =
+      along >= 0.0f ? std::min(nearest + 1, sections.size() - 1) : (nearest == 0 ? 0 : nearest - 1);
   if (next == nearest) {
     const glm::vec2 e = at.coordinates(p - along * at.tangent);
     return std::hypot(glm::length(e), along / at.h);

@@ -35,7 +35,6 @@ struct ThickTriangle {
   Knot a, b, c;
 };
 
-
 // A bent sheet of thick triangles.
 struct Sheet {
   std::vector<ThickTriangle> pieces;

@@ -57,8 +57,8 @@ std::vector<Bone> make_bones() {
 }  // namespace
 
 glm::vec3 tibia_in_femur(float knee_angle) {
-  static constexpr std::array<double, 12> kAngleX{-2.0944,  -1.74533, -1.39626, -1.0472,  -0.698132, -0.349066,
-                                                  -0.174533, 0.197344, 0.337395, 0.490178, 1.52146,  2.0944};
+  static constexpr std::array<double, 12> kAngleX{-2.0944,   -1.74533, -1.39626, -1.0472,  -0.698132, -0.349066,
+                                                  -0.174533, 0.197344, 0.337395, 0.490178, 1.52146,   2.0944};
   static constexpr std::array<double, 12> kX{-0.0032, 0.00179,   0.00411,   0.0041,    0.00212,   -0.001,
                                              -0.0031, -0.005227, -0.005435, -0.005574, -0.005435, -0.00525};
   static constexpr std::array<double, 7> kAngleY{-2.0944, -1.22173, -0.523599, -0.349066, -0.174533, 0.159149, 2.0944};
@@ -67,8 +67,8 @@ glm::vec3 tibia_in_femur(float knee_angle) {
 }
 
 glm::vec3 patella_pole_in_tibia(float knee_angle) {
-  static constexpr std::array<double, 12> kAngle{-2.0944,   -1.5708,   -1.39626,  -1.0472,   -0.698132, -0.526391,
-                                                 -0.349066, -0.174533, 0.0,       0.0279253, 0.0872665, 0.174533};
+  static constexpr std::array<double, 12> kAngle{-2.0944,   -1.5708,   -1.39626, -1.0472,   -0.698132, -0.526391,
+                                                 -0.349066, -0.174533, 0.0,      0.0279253, 0.0872665, 0.174533};
   static constexpr std::array<double, 12> kX{0.0155805, 0.0275081, 0.0307615, 0.0365695, 0.0422074, 0.0450902,
                                              0.048391,  0.0534299, 0.0617576, 0.0633083, 0.066994,  0.0733035};
   static constexpr std::array<double, 12> kY{0.0234116, 0.0251141, 0.0253146, 0.0249184, 0.0242373, 0.0238447,
@@ -91,8 +91,10 @@ int find_bone(std::string_view name) {
 std::string mirrored_name(const std::string& name) {
   std::string other = name;
   if (other.size() > 2 && other[other.size() - 2] == '_') {
-    if (other.back() == 'r') other.back() = 'l';
-    else if (other.back() == 'l') other.back() = 'r';
+    if (other.back() == 'r')
+      other.back() = 'l';
+    else if (other.back() == 'l')
+      other.back() = 'r';
   }
   return other;
 }

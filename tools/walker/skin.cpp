@@ -21,21 +21,25 @@ glm::vec3 in(const char* bone, float x, float y, float z) {
 // The right half of a leg's outline, in the character's rest space.
 Solid make_envelope() {
   Solid solid(0.045f);
-  const auto knot = [](const char* bone, float x, float y, float z, float r) { return Knot{in(bone, x, y, z), 0.001f * r}; };
+  const auto knot = [](const char* bone, float x, float y, float z, float r) {
+    return Knot{in(bone, x, y, z), 0.001f * r};
+  };
   solid.add_tube({knot("femur_r", -12, -60, 16, 74), knot("femur_r", 2, -130, 10, 73), knot("femur_r", 8, -210, 8, 65),
                   knot("femur_r", 8, -300, 2, 54), knot("femur_r", 4, -370, 0, 46), knot("tibia_r", 4, -15, 2, 44),
                   knot("tibia_r", -8, -80, 6, 46), knot("tibia_r", -16, -140, 6, 48), knot("tibia_r", -10, -220, 8, 40),
-                  knot("tibia_r", -4, -320, 8, 28), knot("tibia_r", -4, -400, 2, 27), knot("talus_r", -12, -12, 0, 26)});
+                  knot("tibia_r", -4, -320, 8, 28), knot("tibia_r", -4, -400, 2, 27),
+                  knot("talus_r", -12, -12, 0, 26)});
   solid.add_tube({knot("tibia_r", -14, -420, 2, 21), knot("foot_r", 12, 20, -3, 20)});
   solid.add_tube({knot("talus_r", 10, 0, -4, 24), knot("foot_r", 90, 27, -2, 20), knot("foot_r", 140, 12, -2, 13)});
   solid.add_tube({knot("foot_r", 20, 12, -4, 17), knot("foot_r", 90, 14, 4, 15), knot("foot_r", 155, 5, 2, 11)});
   solid.add_tube({knot("foot_r", 150, 4, -26, 10), knot("toes_r", 40, -1, -22, 7)});
   solid.add_tube({knot("foot_r", 150, 3, 28, 9), knot("toes_r", 8, -3, 38, 6)});
-  solid.add(ThickTriangle{knot("foot_r", 150, 4, -26, 10), knot("foot_r", 140, 2, 30, 9), knot("toes_r", 30, -2, 0, 7)});
-  solid.add_tube({knot("pelvis", -118, -40, 62, 78), knot("pelvis", -104, -104, 74, 70)});   // buttock
-  solid.add_tube({knot("pelvis", -62, 40, 60, 84), knot("pelvis", -66, -40, 72, 84)});       // hip and flank
-  solid.add_tube({knot("pelvis", -62, 110, 40, 92), knot("pelvis", -62, 20, 50, 88)});       // belly
-  solid.add_tube({knot("pelvis", -30, 0, 30, 50), knot("pelvis", -40, -60, 30, 34)});        // lower belly
+  solid.add(
+      ThickTriangle{knot("foot_r", 150, 4, -26, 10), knot("foot_r", 140, 2, 30, 9), knot("toes_r", 30, -2, 0, 7)});
+  solid.add_tube({knot("pelvis", -118, -40, 62, 78), knot("pelvis", -104, -104, 74, 70)});  // buttock
+  solid.add_tube({knot("pelvis", -62, 40, 60, 84), knot("pelvis", -66, -40, 72, 84)});      // hip and flank
+  solid.add_tube({knot("pelvis", -62, 110, 40, 92), knot("pelvis", -62, 20, 50, 88)});      // belly
+  solid.add_tube({knot("pelvis", -30, 0, 30, 50), knot("pelvis", -40, -60, 30, 34)});       // lower belly
   return solid;
 }
 
@@ -81,7 +85,9 @@ Weights nearest_bone(const glm::vec3& p, const std::vector<BoneShape>& shapes) {
     }
   }
   const bool left = p.x > 0.0f;
-  const auto give = [&](int to, float weight) { weights[static_cast<std::size_t>(left ? mirrored_bone(to) : to)] += weight; };
+  const auto give = [&](int to, float weight) {
+    weights[static_cast<std::size_t>(left ? mirrored_bone(to) : to)] += weight;
+  };
   if (bone == find_bone("patella_r")) {
     give(find_bone("femur_r"), 0.5f);
     give(find_bone("tibia_r"), 0.5f);
@@ -105,8 +111,7 @@ void diffuse(std::vector<Weights>& weights, const TriangleMesh& mesh) {
     }
     for (std::size_t v = 0; v < weights.size(); ++v) {
       if (neighbours[v] == 0.0f) continue;
-      for (std::size_t k = 0; k < count; ++k)
-        weights[v][k] = 0.5f * weights[v][k] + 0.5f * sum[v][k] / neighbours[v];
+      for (std::size_t k = 0; k < count; ++k) weights[v][k] = 0.5f * weights[v][k] + 0.5f * sum[v][k] / neighbours[v];
     }
   }
 }
@@ -117,10 +122,11 @@ Skin make_skin(const std::vector<TriangleMesh>& parts, const std::vector<BoneSha
   const Solid envelope = make_envelope();
   const float margin = 0.03f;
   std::vector<TriangleMesh> all = parts;
-  all.push_back(mesh_field([&envelope](const glm::vec3& p) { return envelope.distance(glm::vec3(-std::abs(p.x), p.y, p.z)); },
-                           {envelope.low() - margin, glm::vec3(-envelope.low().x + margin, envelope.high().y + margin,
-                                                               envelope.high().z + margin)},
-                           0.006f, 0.0f));
+  all.push_back(
+      mesh_field([&envelope](const glm::vec3& p) { return envelope.distance(glm::vec3(-std::abs(p.x), p.y, p.z)); },
+                 {envelope.low() - margin,
+                  glm::vec3(-envelope.low().x + margin, envelope.high().y + margin, envelope.high().z + margin)},
+                 0.006f, 0.0f));
   WrapSettings settings;
   settings.cut_height = in("pelvis", 0, 122, 0).y;
   Skin skin;

@@ -12,9 +12,9 @@
 namespace fascicle::walker {
 
 struct Skin {
-  TriangleMesh mesh;                               // character's rest space, with normals
-  std::vector<std::array<std::uint8_t, 4>> joints; // index into bones()
-  std::vector<std::array<float, 4>> weights;       // sum 1
+  TriangleMesh mesh;                                // character's rest space, with normals
+  std::vector<std::array<std::uint8_t, 4>> joints;  // index into bones()
+  std::vector<std::array<float, 4>> weights;        // sum 1
 };
 
 // `parts` in the character's rest space.

@@ -20,8 +20,8 @@
 namespace fascicle::walker {
 namespace {
 
-constexpr int kBlock = 8;        // voxels along an OpenVDB leaf
-constexpr float kBand = 3.0f;    // voxels kept on each side of the surface
+constexpr int kBlock = 8;      // voxels along an OpenVDB leaf
+constexpr float kBand = 3.0f;  // voxels kept on each side of the surface
 
 void initialise_openvdb() {
   static const bool done = (openvdb::initialize(), true);
@@ -90,8 +90,10 @@ openvdb::FloatGrid::Ptr sample_field(const Field& field, const Box& box, float v
           const openvdb::Coord at(bx * kBlock + i % kBlock, by * kBlock + i / kBlock % kBlock,
                                   bz * kBlock + i / (kBlock * kBlock));
           const float d = field(glm::vec3(at.x(), at.y(), at.z()) * voxel);
-          if (std::abs(d) < kBand * voxel) accessor.setValue(at, d);
-          else if (d < 0.0f) accessor.setValueOff(at, -kBand * voxel);
+          if (std::abs(d) < kBand * voxel)
+            accessor.setValue(at, d);
+          else if (d < 0.0f)
+            accessor.setValueOff(at, -kBand * voxel);
         }
       }
     }

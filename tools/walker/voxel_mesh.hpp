@@ -24,13 +24,13 @@ struct Box {
 TriangleMesh mesh_field(const Field& field, const Box& box, float voxel, float adaptivity);
 
 struct WrapSettings {
-  float voxel = 0.004f;        // m, of the grid on which the union is filtered
-  float dilate = 0.012f;       // m, first outwards ...
-  float erode = 0.008f;        // m, ... then back: closes gaps narrower than twice `dilate`
-  int smooth_passes = 3;       // Gaussian filters between the two
-  float mesh_voxel = 0.010f;   // m, edge length of the result
-  float cut_height = 1.0f;     // m, nothing is kept above ...
-  float floor_height = 0.0f;   // m, ... or below
+  float voxel = 0.004f;       // m, of the grid on which the union is filtered
+  float dilate = 0.012f;      // m, first outwards ...
+  float erode = 0.008f;       // m, ... then back: closes gaps narrower than twice `dilate`
+  int smooth_passes = 3;      // Gaussian filters between the two
+  float mesh_voxel = 0.010f;  // m, edge length of the result
+  float cut_height = 1.0f;    // m, nothing is kept above ...
+  float floor_height = 0.0f;  // m, ... or below
 };
 
 // The smooth closed surface around the union of `parts`.

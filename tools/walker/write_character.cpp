@@ -19,8 +19,8 @@ std::string number(double value) {
 
 std::string point(const PathPoint& p, bool counts_field) {
   const bool counts = p.kind == PointKind::kPublished;
-  return fmt::format(R"({{ "bone": "{}", "position": [{}, {}, {}]{} }})", p.bone, number(p.position.x), number(p.position.y),
-                     number(p.position.z), counts_field && !counts ? R"(, "counts": false)" : "");
+  return fmt::format(R"({{ "bone": "{}", "position": [{}, {}, {}]{} }})", p.bone, number(p.position.x),
+                     number(p.position.y), number(p.position.z), counts_field && !counts ? R"(, "counts": false)" : "");
 }
 
 std::string muscle_text(const MuscleSpec& muscle) {
@@ -34,10 +34,12 @@ std::string muscle_text(const MuscleSpec& muscle) {
   }
   text += fmt::format("      \"insertion\": {},\n", point(muscle.path.back(), false));
   text += fmt::format(
-      "      \"max_isometric_force\": {}, \"optimal_fibre_length\": {}, \"tendon_slack_length\": {}, \"pennation\": {},\n",
+      "      \"max_isometric_force\": {}, \"optimal_fibre_length\": {}, \"tendon_slack_length\": {}, \"pennation\": "
+      "{},\n",
       number(muscle.max_isometric_force), number(muscle.optimal_fibre_length), number(muscle.tendon_slack_length),
       number(muscle.pennation));
-  text += fmt::format("      \"source_length\": {}, \"mesh\": \"{}\" }}", number(published_length(muscle)), muscle.name);
+  text +=
+      fmt::format("      \"source_length\": {}, \"mesh\": \"{}\" }}", number(published_length(muscle)), muscle.name);
   return text;
 }
 
@@ -52,8 +54,8 @@ bool write_character(const std::filesystem::path& file, const std::vector<Muscle
   "skin": { "gltf": "walker.glb", "meshes": ["skin"] },
   "bone_meshes": [)";
   for (std::size_t i = 0; i < bones().size(); ++i)
-    text += fmt::format("{}\n    {{ \"bone\": \"{}\", \"file\": \"bones.glb#{}\" }}", i == 0 ? "" : ",", bones()[i].name,
-                        bones()[i].name);
+    text += fmt::format("{}\n    {{ \"bone\": \"{}\", \"file\": \"bones.glb#{}\" }}", i == 0 ? "" : ",",
+                        bones()[i].name, bones()[i].name);
   text += R"(
   ],
   "muscle_meshes": { "file": "muscles.glb", "bones_space": "character" },

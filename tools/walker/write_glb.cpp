@@ -112,8 +112,8 @@ void add_skin(tinygltf::Model& model, const Skin& skin) {
     binding.joints.push_back(static_cast<int>(i));
   }
   binding.skeleton = 0;
-  binding.inverseBindMatrices = add_accessor(model, std::span<const float>(inverse), TINYGLTF_COMPONENT_TYPE_FLOAT,
-                                             TINYGLTF_TYPE_MAT4, 16, 0);
+  binding.inverseBindMatrices =
+      add_accessor(model, std::span<const float>(inverse), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, 16, 0);
   model.skins.push_back(binding);
   tinygltf::Node node;
   node.name = "skin";
@@ -153,8 +153,9 @@ void add_clip(tinygltf::Model& model, const Gait& gait) {
       moves = moves || pose.translation[bone] != bones()[bone].offset;
     }
     if (turns)
-      add_channel(bone, "rotation", add_accessor(model, std::span<const float>(rotations), TINYGLTF_COMPONENT_TYPE_FLOAT,
-                                                 TINYGLTF_TYPE_VEC4, 4, 0));
+      add_channel(bone, "rotation",
+                  add_accessor(model, std::span<const float>(rotations), TINYGLTF_COMPONENT_TYPE_FLOAT,
+                               TINYGLTF_TYPE_VEC4, 4, 0));
     if (moves) add_channel(bone, "translation", add_vec3(model, translations, false, 0));
   }
   model.animations.push_back(clip);
