@@ -179,9 +179,13 @@ inline void write_all(const WriteSurfacesJob& job) {
   __builtin_memset(scratch.window, 0, sizeof(scratch.window));
   const SectionsView& view = job.sections;
   for (std::uint32_t muscle = 0; muscle < view.muscle_count; ++muscle) {
-    if (view.attached != nullptr && view.attached[muscle] == 0) collapse_muscle(view, muscle, job.vertices);
-    else if (view.layouts[muscle].section_vertices == 8) write_muscle<kStream, true>(view, muscle, scratch, job.vertices);
-    else write_muscle<kStream, false>(view, muscle, scratch, job.vertices);
+    if (view.attached != nullptr && view.attached[muscle] == 0) {
+      collapse_muscle(view, muscle, job.vertices);
+    } else if (view.layouts[muscle].section_vertices == 8) {
+      write_muscle<kStream, true>(view, muscle, scratch, job.vertices);
+    } else {
+      write_muscle<kStream, false>(view, muscle, scratch, job.vertices);
+    }
   }
 }
 
