@@ -120,7 +120,7 @@ int make(const std::filesystem::path& out, const std::filesystem::path& obj, boo
   if (!skip_skin) {
     std::vector<TriangleMesh> parts = placed_bones(bone_meshes, rest_pose());
     parts.insert(parts.end(), muscle_meshes.begin(), muscle_meshes.end());
-    skin = make_skin(parts, shapes);
+    skin = make_skin(parts, shapes, muscles);
     const MeshFaults faults = find_faults(skin.mesh);
     fmt::print("skin {} vertices{}{}\n", skin.mesh.positions.size(), faults.open_edges > 0 ? ", open" : "",
                faults.crowded_edges > 0 ? ", crowded" : "");

@@ -67,7 +67,7 @@ glm::vec3 shift_at(const BellyShape& shape, float s) {
   return 0.001f * from_opensim(shift);
 }
 
-// Frames and sizes for the curve through the present centres. `area_scale` of the belly is solved for the volume.
+// Frames and sizes for the curve through the present centres; the belly's area is solved for the volume.
 void shape_sections(Belly& belly) {
   const BellyShape& shape = belly.muscle->belly;
   const std::size_t n = belly.sections.size();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include "tools/walker/muscle_meshes.hpp"
 #include "tools/walker/voxel_mesh.hpp"
@@ -40,7 +41,50 @@ Solid make_envelope() {
   solid.add_tube({knot("pelvis", -62, 40, 60, 84), knot("pelvis", -66, -40, 72, 84)});      // hip and flank
   solid.add_tube({knot("pelvis", -62, 110, 40, 92), knot("pelvis", -62, 20, 50, 88)});      // belly
   solid.add_tube({knot("pelvis", -30, 0, 30, 50), knot("pelvis", -40, -60, 30, 34)});       // lower belly
+  // Over what lies right under the skin: toes, fifth metatarsal, kneecap and outer ankle.
+  solid.add_tube({knot("toes_r", 10, 3, -26, 9), knot("toes_r", 57, 2, -20, 7.5f), knot("toes_r", 38, 2, 10, 7),
+                  knot("toes_r", 8, 2, 43, 7)});
+  solid.add_tube({knot("foot_r", 70, 12, 30, 10), knot("foot_r", 140, 6, 32, 9)});
+  solid.add(RoundCone{knot("patella_r", -15, -8, 0, 14), knot("patella_r", -17, -24, 0, 11)});
+  solid.add(RoundCone{knot("tibia_r", -6, -390, 26, 14), knot("tibia_r", -6, -418, 27, 13)});
   return solid;
+}
+
+// What the right side's muscles look like before they are fitted to their meshes: spindles about the action lines, with
+// half of the tendon at the insertion (method 1.4) and a sine's profile.
+Solid make_spindles(const std::vector<MuscleSpec>& muscles) {
+  constexpr float kEnd = 0.3f;          // of the thickest radius
+  constexpr float kMeanSquare = 0.60f;  // of the profile
+  constexpr int kStations = 16;
+  Solid solid(0.006f);
+  for (const MuscleSpec& muscle : muscles) {
+    const std::vector<glm::vec3> path = rest_path(muscle);
+    const float length = published_length(muscle);
+    const float belly = std::max(0.2f * length, length - 0.5f * muscle.tendon_slack_length);
+    const float thickest = std::sqrt(muscle.volume() / (kMeanSquare * glm::pi<float>() * belly));
+    Tube tube;
+    float gone = 0.0f;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const float part = glm::distance(path[i - 1], path[i]);
+      for (int k = 0; k <= kStations; ++k) {
+        const float share = static_cast<float>(k) / kStations;
+        const float at = std::min((gone + share * part) / belly, 1.0f);
+        const float profile = kEnd + (1.0f - kEnd) * std::sin(glm::pi<float>() * at);
+        tube.knots.push_back({glm::mix(path[i - 1], path[i], share), thickest * profile});
+      }
+      gone += part;
+    }
+    solid.add(tube);
+  }
+  return solid;
+}
+
+// Both sides' mesh of a solid that is the right half.
+TriangleMesh mesh_both_sides(const Solid& solid, float voxel) {
+  const float margin = 0.03f;
+  const glm::vec3 high = solid.high() + margin;
+  return mesh_field([&solid](const glm::vec3& p) { return solid.distance(glm::vec3(-std::abs(p.x), p.y, p.z)); },
+                    {solid.low() - margin, glm::vec3(margin - solid.low().x, high.y, high.z)}, voxel, 0.0f);
 }
 
 // Takes the grid's steps out of the surface: shrinking and swelling passes by turns (Taubin 1995) keep the volume.
@@ -118,15 +162,11 @@ void diffuse(std::vector<Weights>& weights, const TriangleMesh& mesh) {
 
 }  // namespace
 
-Skin make_skin(const std::vector<TriangleMesh>& parts, const std::vector<BoneShape>& shapes) {
-  const Solid envelope = make_envelope();
-  const float margin = 0.03f;
+Skin make_skin(const std::vector<TriangleMesh>& parts, const std::vector<BoneShape>& shapes,
+               const std::vector<MuscleSpec>& muscles) {
   std::vector<TriangleMesh> all = parts;
-  all.push_back(
-      mesh_field([&envelope](const glm::vec3& p) { return envelope.distance(glm::vec3(-std::abs(p.x), p.y, p.z)); },
-                 {envelope.low() - margin,
-                  glm::vec3(-envelope.low().x + margin, envelope.high().y + margin, envelope.high().z + margin)},
-                 0.006f, 0.0f));
+  all.push_back(mesh_both_sides(make_envelope(), 0.006f));
+  all.push_back(mesh_both_sides(make_spindles(muscles), 0.005f));
   WrapSettings settings;
   settings.cut_height = in("pelvis", 0, 122, 0).y;
   Skin skin;

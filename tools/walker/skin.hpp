@@ -17,7 +17,8 @@ struct Skin {
   std::vector<std::array<float, 4>> weights;        // sum 1
 };
 
-// `parts` in the character's rest space.
-Skin make_skin(const std::vector<TriangleMesh>& parts, const std::vector<BoneShape>& bones);
+// `parts` in the character's rest space. The muscles' unfitted spindles about their action lines lie inside as well.
+Skin make_skin(const std::vector<TriangleMesh>& parts, const std::vector<BoneShape>& bones,
+               const std::vector<MuscleSpec>& muscles);
 
 }  // namespace fascicle::walker

@@ -25,7 +25,7 @@ TriangleMesh mesh_field(const Field& field, const Box& box, float voxel, float a
 
 struct WrapSettings {
   float voxel = 0.004f;       // m, of the grid on which the union is filtered
-  float dilate = 0.012f;      // m, first outwards ...
+  float dilate = 0.014f;      // m, first outwards ...
   float erode = 0.008f;       // m, ... then back: closes gaps narrower than twice `dilate`
   int smooth_passes = 3;      // Gaussian filters between the two
   float mesh_voxel = 0.010f;  // m, edge length of the result
