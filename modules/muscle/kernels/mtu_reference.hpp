@@ -201,40 +201,75 @@ static inline Vec surface_normal(Vec e, Vec d, Vec otherwise) {
   return dot(n, n) < 1.0e-34f ? normalized(otherwise) : normalized(n);
 }
 
+// First all positions, then the normals from them.
 static void write_muscle(const SectionsView& view, const SectionLayout& layout, float* to) {
-  const std::uint32_t count = layout.section_vertices, last = layout.section_count - 1;
+  const int count = static_cast<int>(layout.section_vertices), last = static_cast<int>(layout.section_count) - 1;
   const Circle& circle = view.circles[layout.circle];
-  for (std::uint32_t k = 0; k <= last; ++k) {
-    const Section before = section(view, layout, k > 0 ? k - 1 : 0), here = section(view, layout, k);
-    const Section next = section(view, layout, k < last ? k + 1 : k);
-    const Section after = section(view, layout, k + 2 <= last ? k + 2 : last);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t left = i > 0 ? i - 1 : count - 1, right = i + 1 < count ? i + 1 : 0;
-      const Vec e = vertex(here, circle, right) - vertex(here, circle, left);
-      const Vec d = vertex(next, circle, i) - vertex(before, circle, i);
-      write_vertex(vertex(here, circle, i), surface_normal(e, d, radial(here, circle, i)), to);
-      to += kFloatsPerVertex;
-    }
-    for (int end = 0; end < 2; ++end) {
-      if (!layout.tendon_drawn[end] || view.segment[end][layout.lane_index] != static_cast<int>(k)) continue;
-      const float s = view.fraction[end][layout.lane_index];
-      const auto between = [&](std::uint32_t i) {
-        const Vec a = vertex(here, circle, i);
-        return a + s * (vertex(next, circle, i) - a);
-      };
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t left = i > 0 ? i - 1 : count - 1, right = i + 1 < count ? i + 1 : 0;
-        const Vec d_here = vertex(next, circle, i) - vertex(before, circle, i);
-        const Vec d_next = vertex(after, circle, i) - vertex(here, circle, i);
-        const Vec d = d_here + s * (d_next - d_here);
-        write_vertex(between(i), surface_normal(between(right) - between(left), d, radial(here, circle, i)), to);
-        to += kFloatsPerVertex;
-      }
+  int segment[2];  // beyond the last section where no tendon is drawn
+  for (int end = 0; end < 2; ++end) {
+    segment[end] = layout.tendon_drawn[end] ? view.segment[end][layout.lane_index] : last + 1;
+  }
+  const auto row_of = [&](int k) { return k + (segment[0] < k ? 1 : 0) + (segment[1] < k ? 1 : 0); };
+  const auto tendon_row = [&](int end) {
+    return row_of(segment[end]) + 1 + (end == 1 && segment[0] == segment[1] ? 1 : 0);
+  };
+  const auto vertex_at = [&](int row, int i) { return to + kFloatsPerVertex * (row * count + i); };
+  const auto position = [&](int row, int i) {
+    const float* v = vertex_at(row, i);
+    return Vec{v[0], v[1], v[2]};
+  };
+  const auto write_position = [&](int row, int i, Vec at) {
+    float* v = vertex_at(row, i);
+    v[0] = at.x;
+    v[1] = at.y;
+    v[2] = at.z;
+  };
+  const auto write_normal = [&](int row, int i, Vec normal) {
+    const std::uint32_t packed = pack(normal);
+    __builtin_memcpy(vertex_at(row, i) + 3, &packed, sizeof(packed));
+  };
+
+  for (int k = 0; k <= last; ++k) {
+    const Section here = section(view, layout, static_cast<std::uint32_t>(k));
+    for (int i = 0; i < count; ++i) write_position(row_of(k), i, vertex(here, circle, static_cast<std::uint32_t>(i)));
+  }
+  for (int end = 0; end < 2; ++end) {
+    if (segment[end] > last) continue;
+    const float s = view.fraction[end][layout.lane_index];
+    for (int i = 0; i < count; ++i) {
+      const Vec a = position(row_of(segment[end]), i);
+      write_position(tendon_row(end), i, a + s * (position(row_of(segment[end] + 1), i) - a));
     }
   }
-  const Section first = section(view, layout, 0), end = section(view, layout, last);
-  write_vertex(first.a, -1.0f * cross(first.u, first.v), to);
-  write_vertex(end.a, cross(end.u, end.v), to + kFloatsPerVertex);
+
+  const auto around = [&](int row, int i) {
+    return position(row, i + 1 < count ? i + 1 : 0) - position(row, i > 0 ? i - 1 : count - 1);
+  };
+  const auto along = [&](int k, int i) {
+    return position(row_of(k < last ? k + 1 : k), i) - position(row_of(k > 0 ? k - 1 : k), i);
+  };
+  for (int k = 0; k <= last; ++k) {
+    const Section here = section(view, layout, static_cast<std::uint32_t>(k));
+    for (int i = 0; i < count; ++i) {
+      const Vec otherwise = radial(here, circle, static_cast<std::uint32_t>(i));
+      write_normal(row_of(k), i, surface_normal(around(row_of(k), i), along(k, i), otherwise));
+    }
+  }
+  for (int end = 0; end < 2; ++end) {
+    if (segment[end] > last) continue;
+    const float s = view.fraction[end][layout.lane_index];
+    const Section here = section(view, layout, static_cast<std::uint32_t>(segment[end]));
+    for (int i = 0; i < count; ++i) {
+      const Vec d = along(segment[end], i);
+      const Vec between = d + s * (along(segment[end] + 1, i) - d);
+      const Vec otherwise = radial(here, circle, static_cast<std::uint32_t>(i));
+      write_normal(tendon_row(end), i, surface_normal(around(tendon_row(end), i), between, otherwise));
+    }
+  }
+  const Section first = section(view, layout, 0), end = section(view, layout, static_cast<std::uint32_t>(last));
+  float* const centres = to + kFloatsPerVertex * layout.row_count * layout.section_vertices;
+  write_vertex(first.a, -1.0f * cross(first.u, first.v), centres);
+  write_vertex(end.a, cross(end.u, end.v), centres + kFloatsPerVertex);
 }
 
 static void write_surfaces(const WriteSurfacesJob& job) {
