@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
   if (!scene) {
     std::fputs(to_text(scene.diagnostics()).c_str(), stderr);
     if (!muscle::lacks_data(scene.diagnostics())) return game::kExitBadContent;
-    std::fprintf(stderr, "The scene '%s' needs data that is not part of the project; set FASCICLE_DATA to its folder.\n",
+    std::fprintf(stderr,
+                 "The scene '%s' needs data that is not part of the project; set FASCICLE_DATA to its folder.\n",
                  options.scene.c_str());
     return game::kExitNoData;
   }

@@ -34,7 +34,8 @@ class OverlayFeed {
 
   // Call after each simulation step: smooths the systems' times.
   void record_step(const ecs::Schedule& schedule);
-  // The model of this frame; what it points to lives until the next call. `shown` is the character whose muscles are listed.
+  // The model of this frame; what it points to lives until the next call. `shown` is the character whose muscles are
+  // listed.
   const OverlayModel& build(Simulation& simulation, const Renderer& renderer, const DrawView& view,
                             float frame_milliseconds, std::size_t shown);
 

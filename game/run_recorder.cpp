@@ -29,7 +29,8 @@ RunRecorder::RunRecorder(const GameOptions& options, Simulation& simulation, std
     : options_(options), stats_({.warm_up_frames = warm_up_frames(total_frames)}) {
   if (!options.trace_file.empty()) trace_.emplace();
   stats_.set_note("scene", simulation.scene().name);
-  stats_.set_note("workers", fmt::format("{} of {} cores", simulation.workers().workers(), parallel::hardware_workers()));
+  stats_.set_note("workers",
+                  fmt::format("{} on {} cores", simulation.workers().workers(), parallel::hardware_workers()));
   stats_.set_note("simd", std::string(to_string(simulation.simd())));
   stats_.set_note("characters", std::to_string(simulation.characters().size()));
   if (options.detail) announce_items(simulation);

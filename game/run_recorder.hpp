@@ -1,5 +1,5 @@
-// What a run leaves behind: statistics, trace, report, hash and the screenshot, each where it was asked for. The same for
-// a window and for a headless run.
+// What a run leaves behind: statistics, trace, report, hash and the screenshot, each where it was asked for. The same
+// for a window and for a headless run.
 #pragma once
 
 #include <cstdint>

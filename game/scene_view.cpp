@@ -93,10 +93,9 @@ void SceneView::attach_character(const SpawnedCharacter& character) {
     shared->second.line_indices = muscle::make_action_line_indices(asset);
     topologies_.push_back(shared->second.topology);
   }
-  world.add(character.musculature,
-            muscle::DrawnMuscles{renderer_.add_strips(shared->second.topology),
-                                 renderer_.add_lines(muscle::action_line_vertex_count(asset), shared->second.line_indices),
-                                 0});
+  const StripHandle strips = renderer_.add_strips(shared->second.topology);
+  const LineHandle lines = renderer_.add_lines(muscle::action_line_vertex_count(asset), shared->second.line_indices);
+  world.add(character.musculature, muscle::DrawnMuscles{strips, lines, 0});
 }
 
 void SceneView::release() {

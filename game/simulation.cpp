@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 #include "engine/animation/joint_systems.hpp"
 #include "engine/animation/pose_systems.hpp"
 #include "engine/animation/skinning_systems.hpp"
 #include "engine/loop/cost_ledger.hpp"
+#include "engine/math/state_hash.hpp"
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
@@ -17,23 +17,6 @@ namespace {
 constexpr int kMaxCatchUpSteps = 4;
 constexpr float kCopySpacing = 1.4f;             // m between copies on the grid
 constexpr float kPhaseOfCopy = 0.61803398875f;   // each copy is this fraction of a cycle ahead of the one before
-
-// FNV-1a over 64-bit words; bytes beyond the last word are not expected (all states are multiples of 8 bytes).
-class StateHash {
- public:
-  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ull; }
-  void add(std::span<const glm::mat4> matrices) {
-    for (const glm::mat4& matrix : matrices) {
-      std::uint64_t words[sizeof(glm::mat4) / sizeof(std::uint64_t)];
-      std::memcpy(words, &matrix, sizeof words);
-      for (const std::uint64_t word : words) add(word);
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ull;
-};
 
 // Copies stand on a square grid, row after row away from the camera; copy 0 stands where the scene says.
 glm::vec3 grid_offset(int copy, int copies) {
@@ -121,7 +104,8 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
     world_.add(spawned.entity, make_coordinate_pose(asset.joints));
     if (placed.animation.motion) {
       world_.add(spawned.entity, MotionPlayer{.motion = placed.animation.motion,
-                                              .time = static_cast<double>(phase) * placed.animation.motion->cycle.length(),
+                                              .time = static_cast<double>(phase) *
+                                                      placed.animation.motion->cycle.length(),
                                               .speed = static_cast<double>(placed.animation.speed),
                                               .in_place = placed.in_place});
     }
@@ -156,7 +140,9 @@ void Simulation::swap_scene(std::shared_ptr<const muscle::SceneAsset> scene) {
   if (before != scene_->characters.size()) return;
   for (std::size_t i = 0; i < characters_.size(); ++i) {
     if (ClipPlayer* clip = world_.try_get<ClipPlayer>(characters_[i].entity)) clip->time = states[i].clip_time;
-    if (MotionPlayer* motion = world_.try_get<MotionPlayer>(characters_[i].entity)) motion->time = states[i].motion_time;
+    if (MotionPlayer* motion = world_.try_get<MotionPlayer>(characters_[i].entity)) {
+      motion->time = states[i].motion_time;
+    }
   }
 }
 
@@ -164,7 +150,7 @@ std::uint64_t Simulation::hash() const {
   StateHash hash;
   hash.add(steps_);
   for (const SpawnedCharacter& character : characters_) {
-    hash.add(world_.get<BoneMatrices>(character.entity).world);
+    hash.add(std::span<const glm::mat4>(world_.get<BoneMatrices>(character.entity).world));
   }
   hash.add(muscle::hash_state(world_));
   return hash.value();

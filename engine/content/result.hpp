@@ -31,7 +31,8 @@ struct Diagnostics {
   void append(Diagnostics other);
 };
 
-// Errors and warnings as text, one a line; or as JSON: {"errors":[{file,line,column,path,cause,remedy}],"warnings":[...]}.
+// Errors and warnings as text, one a line; or as JSON:
+// {"errors": [{file, line, column, path, cause, remedy}], "warnings": [...]}.
 std::string to_text(const Diagnostics& diagnostics);
 std::string to_json(const Diagnostics& diagnostics);
 
