@@ -37,16 +37,13 @@ RunRecorder::RunRecorder(const GameOptions& options, Simulation& simulation, std
 }
 
 void RunRecorder::announce_items(Simulation& simulation) {
-  CostLedger& ledger = simulation.world().resource<CostLedger>();
   std::size_t number = 0;
   for (const SpawnedCharacter& character : simulation.characters()) {
     ++number;
     if (character.musculature == ecs::kNoEntity) continue;
-    std::vector<std::string> muscles;
-    for (const muscle::MuscleLayout& layout : character.asset->muscles->muscles) muscles.push_back(layout.name);
-    ledger.add_owner(character.musculature, fmt::format("{} {}", character.asset->name, number), muscles);
+    muscle::list_costs(simulation.world(), character.musculature, fmt::format("{} {}", character.asset->name, number));
   }
-  ledger.set_enabled(true);
+  simulation.world().resource<CostLedger>().set_enabled(true);
 }
 
 void RunRecorder::begin_frame() {

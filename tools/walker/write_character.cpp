@@ -61,7 +61,7 @@ bool write_character(const std::filesystem::path& file, const std::vector<Muscle
   "muscle_meshes": { "file": "muscles.glb", "bones_space": "character" },
   "mirror": { "axis": "x", "bones": [["_r", "_l"]], "names": [["_r", "_l"]] },
   "attachment_space": "bone",
-  "level": { "section_vertices": 8, "longitudinal_subdivision": 1 },
+  "level": { "section_vertices": 12, "longitudinal_subdivision": 2 },
   "specific_tension": 610000,
   "muscles": [
 )";
