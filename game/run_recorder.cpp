@@ -81,13 +81,15 @@ void RunRecorder::end_frame(const Simulation& simulation) {
 }
 
 bool RunRecorder::wants_picture(const Simulation& simulation, bool is_last) const {
-  if (!options_.screenshot) return false;
-  return options_.screenshot->frame ? *options_.screenshot->frame == simulation.steps() : is_last;
+  if (!options_.screenshot || picture_written_) return false;
+  // A window may make several steps at once and pass the one that was asked for.
+  return options_.screenshot->frame ? *options_.screenshot->frame <= simulation.steps() : is_last;
 }
 
 void RunRecorder::write_picture(const Image& image) {
   const auto written = write_png(image, options_.screenshot->file);
   if (!written) std::fputs(to_text(written.diagnostics()).c_str(), stderr);
+  picture_written_ = true;
   picture_failed_ = !written.ok();
 }
 

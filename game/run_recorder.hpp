@@ -45,6 +45,7 @@ class RunRecorder {
   std::int64_t frame_start_ns_ = 0;
   std::uint64_t frames_ = 0;
   std::uint64_t gpu_frame_ = 0;  // newest GPU measurement taken into the statistics
+  bool picture_written_ = false;
   bool picture_failed_ = false;
 };
 

@@ -42,12 +42,14 @@ class WindowRun {
       const double seconds = std::chrono::duration<double>(now - last).count();
       last = now;
       frame(seconds);
-      if (options_.frames && simulation_.steps() >= *options_.frames) break;
+      if (is_over()) break;
     }
     return recorder_.finish(simulation_);
   }
 
  private:
+  bool is_over() const { return options_.frames && simulation_.steps() >= *options_.frames; }
+
   void frame(double seconds) {
     const InputState& input = screen_.window->poll();
     const glm::ivec2 size = screen_.window->framebuffer_size();
@@ -56,7 +58,7 @@ class WindowRun {
     poll_reload();
     recorder_.begin_frame();
     const int steps = simulation_.loop().begin_frame(seconds);
-    for (int i = 0; i < steps; ++i) {
+    for (int i = 0; i < steps && !is_over(); ++i) {
       scene_view_.begin_step();
       simulation_.step();
       feed_.record_step(simulation_.schedule());
@@ -76,7 +78,7 @@ class WindowRun {
     screen_.renderer->present(size.x, size.y);
     recorder_.record_draw(draw_start, monotonic_ns(), *screen_.renderer);
     recorder_.end_frame(simulation_);
-    if (steps > 0 && recorder_.wants_picture(simulation_, options_.frames == simulation_.steps())) {
+    if (recorder_.wants_picture(simulation_, is_over())) {
       recorder_.write_picture(screen_.renderer->read_image());
     }
     screen_.window->swap();

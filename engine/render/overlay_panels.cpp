@@ -33,9 +33,10 @@ void sparkline(const char* id, const TimingHistory& history, float high, const I
 
 void lay_out_frame(const OverlayModel& model, const OverlayMemory& memory, OverlayActions& actions) {
   text(model.title);
-  ImGui::SameLine();
   ImGui::PushStyleColor(ImGuiCol_Text, kGrey);
+  ImGui::PushTextWrapPos(0.0f);
   text(model.subtitle);
+  ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 
   if (ImGui::Button(model.paused ? "Resume" : "Pause", ImVec2(70.0f, 0.0f))) actions.toggle_pause = true;
@@ -47,9 +48,9 @@ void lay_out_frame(const OverlayModel& model, const OverlayMemory& memory, Overl
   if (ImGui::SliderFloat("speed", &scale, 0.0f, 2.0f, "%.2f")) actions.time_scale = scale;
 
   const float average = memory.history.frame.average;
-  ImGui::Text("frame %6.2f ms  %5.0f Hz   step %llu   %.2f s%s", static_cast<double>(average),
+  ImGui::Text("frame %.2f ms  %.0f Hz  step %llu  %.2f s%s", static_cast<double>(average),
               average > 0.0f ? 1000.0 / static_cast<double>(average) : 0.0,
-              static_cast<unsigned long long>(model.frame), model.time, model.paused ? "   paused" : "");
+              static_cast<unsigned long long>(model.frame), model.time, model.paused ? "  paused" : "");
   const auto& values = memory.history.frame.values;
   const float high = std::max(1.5f * model.budget_milliseconds, *std::max_element(values.begin(), values.end()));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -59,10 +60,10 @@ void lay_out_frame(const OverlayModel& model, const OverlayMemory& memory, Overl
   ImGui::GetWindowDrawList()->AddLine(ImVec2(corner.x, budget_y), ImVec2(corner.x + size.x, budget_y),
                                       IM_COL32(120, 220, 120, 140));
   if (model.catch_up_steps > 0) {
-    ImGui::TextColored(kAmber, "%llu catch-up steps", static_cast<unsigned long long>(model.catch_up_steps));
+    ImGui::TextColored(kAmber, "%llu steps dropped to catch up", static_cast<unsigned long long>(model.catch_up_steps));
   }
   for (std::size_t i = 0; i < model.counts.size(); ++i) {
-    if (i % 3 != 0) ImGui::SameLine(0.0f, 14.0f);
+    if (i % 2 != 0) ImGui::SameLine(0.0f, 14.0f);
     ImGui::Text("%.*s %.0f", static_cast<int>(model.counts[i].name.size()), model.counts[i].name.data(),
                 static_cast<double>(model.counts[i].milliseconds));
   }
@@ -185,14 +186,16 @@ void lay_out_items(const OverlayModel& model, OverlayMemory& memory, OverlayActi
   ImGui::EndTable();
 }
 
-void lay_out_messages(const OverlayModel& model, float width, float height, OverlayActions& actions) {
+// Below everything else, right of the main panel, so that neither hides the other.
+void lay_out_messages(const OverlayModel& model, float left, float width, float height, OverlayActions& actions) {
   if (model.errors.empty() && model.warnings.empty()) return;
-  ImGui::SetNextWindowPos(ImVec2(0.5f * width, height - 10.0f), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(0.4f * width, 0.0f), ImVec2(0.8f * width, 0.4f * height));
+  const float room = std::max(width - left - 10.0f, 200.0f);
+  ImGui::SetNextWindowPos(ImVec2(left, height - 10.0f), ImGuiCond_Always, ImVec2(0.0f, 1.0f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(std::min(room, 420.0f), 0.0f), ImVec2(room, 0.4f * height));
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("##messages", nullptr, kFlags)) {
-    ImGui::PushTextWrapPos(0.78f * width);
+    ImGui::PushTextWrapPos(room - 20.0f);
     const auto lines = [](std::span<const std::string> messages, const ImVec4& colour) {
       ImGui::PushStyleColor(ImGuiCol_Text, colour);
       for (const std::string& message : messages) text(message);
@@ -223,11 +226,12 @@ void OverlayHistory::push(const OverlayModel& model) {
 OverlayActions lay_out_overlay(const OverlayModel& model, float width, float height, OverlayMemory& memory) {
   OverlayActions actions;
   constexpr float kMargin = 10.0f;
+  constexpr float kMainWidth = 340.0f;
   const float tallest = std::max(height - 2.0f * kMargin, 100.0f);
   constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings;
 
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_Always);
-  ImGui::SetNextWindowSizeConstraints(ImVec2(330.0f, 60.0f), ImVec2(330.0f, tallest));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(kMainWidth, 60.0f), ImVec2(kMainWidth, tallest));
   if (ImGui::Begin("##main", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize)) {
     lay_out_frame(model, memory, actions);
     if (!model.systems.empty() && ImGui::CollapsingHeader("Time per system, ms", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -244,13 +248,13 @@ OverlayActions lay_out_overlay(const OverlayModel& model, float width, float hei
   ImGui::End();
 
   if (!model.items.empty()) {
-    constexpr float kItemWidth = 380.0f;
+    constexpr float kItemWidth = 460.0f;
     ImGui::SetNextWindowPos(ImVec2(width - kItemWidth - kMargin, kMargin), ImGuiCond_Always);
     ImGui::SetNextWindowSize(ImVec2(kItemWidth, std::min(0.62f * height, tallest)), ImGuiCond_Always);
     if (ImGui::Begin("##item list", nullptr, kPanel)) lay_out_items(model, memory, actions);
     ImGui::End();
   }
-  lay_out_messages(model, width, height, actions);
+  lay_out_messages(model, kMainWidth + 2.0f * kMargin, width, height, actions);
   return actions;
 }
 

@@ -102,7 +102,7 @@ TEST_F(OverlayTest, ClicksBecomeActions) {
   const OverlayModel model = make_model();
   bool paused = false, stepped = false, switched[3] = {}, highlighted[2] = {}, hidden[2] = {};
   for (float y = 20.0f; y < 300.0f; y += 9.0f) {
-    for (const float x : {25.0f, 122.0f, 624.0f, 680.0f}) {
+    for (const float x : {25.0f, 122.0f, 544.0f, 600.0f}) {
       const OverlayActions actions = click(model, {x, y});
       paused |= actions.toggle_pause;
       stepped |= actions.single_step;
