@@ -174,7 +174,7 @@ void lay_out_items(const OverlayModel& model, OverlayMemory& memory, OverlayActi
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(model.item_heading, ImGuiTableColumnFlags_WidthStretch);
   for (int column = 0; column < value_columns; ++column) {
-    ImGui::TableSetupColumn(model.value_headings[column], ImGuiTableColumnFlags_WidthFixed, 76.0f);
+    ImGui::TableSetupColumn(model.value_headings[column], ImGuiTableColumnFlags_WidthFixed, 88.0f);
   }
   ImGui::TableHeadersRow();
   const std::string_view filter(memory.filter.data());
