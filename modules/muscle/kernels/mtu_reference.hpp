@@ -201,6 +201,9 @@ static inline Vec surface_normal(Vec e, Vec d, Vec otherwise) {
   return dot(n, n) < 1.0e-34f ? normalized(otherwise) : normalized(n);
 }
 
+// Squared length below which the mean of two unit normals has no direction.
+inline constexpr float kOppositeNormals = 4.0e-6f;
+
 // First all positions, then the normals from them.
 static void write_muscle(const SectionsView& view, const SectionLayout& layout, float* to) {
   const int count = static_cast<int>(layout.section_vertices), last = static_cast<int>(layout.section_count) - 1;
@@ -248,22 +251,25 @@ static void write_muscle(const SectionsView& view, const SectionLayout& layout, 
   const auto along = [&](int k, int i) {
     return position(row_of(k < last ? k + 1 : k), i) - position(row_of(k > 0 ? k - 1 : k), i);
   };
+  Vec beside[2][2][kMaxSectionVertices];  // normals of the sections before and after each tendon section
   for (int k = 0; k <= last; ++k) {
     const Section here = section(view, layout, static_cast<std::uint32_t>(k));
     for (int i = 0; i < count; ++i) {
       const Vec otherwise = radial(here, circle, static_cast<std::uint32_t>(i));
-      write_normal(row_of(k), i, surface_normal(around(row_of(k), i), along(k, i), otherwise));
+      const Vec normal = surface_normal(around(row_of(k), i), along(k, i), otherwise);
+      write_normal(row_of(k), i, normal);
+      for (int end = 0; end < 2; ++end) {
+        if (segment[end] == k) beside[end][0][i] = normal;
+        if (segment[end] + 1 == k) beside[end][1][i] = normal;
+      }
     }
   }
   for (int end = 0; end < 2; ++end) {
     if (segment[end] > last) continue;
     const float s = view.fraction[end][layout.lane_index];
-    const Section here = section(view, layout, static_cast<std::uint32_t>(segment[end]));
     for (int i = 0; i < count; ++i) {
-      const Vec d = along(segment[end], i);
-      const Vec between = d + s * (along(segment[end] + 1, i) - d);
-      const Vec otherwise = radial(here, circle, static_cast<std::uint32_t>(i));
-      write_normal(tendon_row(end), i, surface_normal(around(tendon_row(end), i), between, otherwise));
+      const Vec a = beside[end][0][i], between = a + s * (beside[end][1][i] - a);
+      write_normal(tendon_row(end), i, normalized(dot(between, between) < kOppositeNormals ? a : between));
     }
   }
   const Section first = section(view, layout, 0), end = section(view, layout, static_cast<std::uint32_t>(last));

@@ -39,8 +39,9 @@ FASCICLE_INLINE WideVector<N> load_differences(const SectionRow& row, std::size_
   else return load_vertices<N>(row, i + 1) - load_vertices<N>(row, i - 1);
 }
 
-// Calls f(width, i, count) over [0, count) with the widest vectors that fit, then narrower ones: |C| = 36 is 4 x 8 + 4
-// on AVX2 and 2 x 16 + 4 on AVX-512, with no lane idle. `width` is a Lanes<N>; `count` is N except perhaps at the end.
+// Calls f(width, i) so that [0, count) is covered with the fewest and widest vectors: `width` is a Lanes<N>, and
+// [i, i + N) lies within the section. The last vector overlaps the one before, and writes the same numbers twice, where
+// |C| is no multiple of N.
 template <int N>
 struct Lanes {
   static constexpr int kCount = N;
@@ -48,17 +49,20 @@ struct Lanes {
 template <bool kEight, class F>
 FASCICLE_INLINE void for_lanes(std::size_t count, F f) {
   if constexpr (kEight) {
-    f(Lanes<8>{}, std::size_t{0}, std::size_t{8});
+    f(Lanes<8>{}, std::size_t{0});
   } else {
     std::size_t i = 0;
     if constexpr (kNativeLanes >= 16) {
-      for (; i + 16 <= count; i += 16) f(Lanes<16>{}, i, std::size_t{16});
+      for (; i + 16 <= count; i += 16) f(Lanes<16>{}, i);
     }
-    if constexpr (kNativeLanes >= 8) {
-      for (; i + 8 <= count; i += 8) f(Lanes<8>{}, i, std::size_t{8});
+    for (; i + 8 <= count; i += 8) f(Lanes<8>{}, i);
+    if (i == count) return;
+    if (count - i > 4 && count >= 8) {
+      f(Lanes<8>{}, count - 8);
+    } else {
+      if (count - i > 4) f(Lanes<4>{}, i);
+      f(Lanes<4>{}, count - 4);
     }
-    for (; i + 4 <= count; i += 4) f(Lanes<4>{}, i, std::size_t{4});
-    if (i < count) f(Lanes<4>{}, i, count - i);
   }
 }
 
@@ -107,7 +111,7 @@ FASCICLE_INLINE void make_row(const SectionsView& view, const SectionLayout& lay
   const Circle circle = view.circles[layout.circle];
   const float* radii = radii_of(view, layout, k);
   const std::size_t count = layout.section_vertices;
-  for_lanes<kEight>(count, [&](auto lanes, std::size_t i, std::size_t) __attribute__((always_inline)) {
+  for_lanes<kEight>(count, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
     constexpr int N = decltype(lanes)::kCount;
     const WideFloat<N> r = load<N>(radii + i);
     WideVector<N> c = in_plane(frame, r * load<N>(circle.cosines + i), r * load<N>(circle.sines + i));
@@ -120,12 +124,13 @@ FASCICLE_INLINE void make_row(const SectionsView& view, const SectionLayout& lay
     }
   });
   if constexpr (!kEight) {  // the last vertex before the first, the first behind the last
-    row.x[kRowStart - 1] = row.x[kRowStart + count - 1];
-    row.y[kRowStart - 1] = row.y[kRowStart + count - 1];
-    row.z[kRowStart - 1] = row.z[kRowStart + count - 1];
-    row.x[kRowStart + count] = row.x[kRowStart];
-    row.y[kRowStart + count] = row.y[kRowStart];
-    row.z[kRowStart + count] = row.z[kRowStart];
+    const auto go_round = [&](float* x) __attribute__((always_inline)) {
+      x[-1] = x[count - 1];
+      x[count] = x[0];
+    };
+    go_round(row.x + kRowStart);
+    go_round(row.y + kRowStart);
+    go_round(row.z + kRowStart);
   }
 }
 

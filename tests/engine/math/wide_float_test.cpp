@@ -54,6 +54,25 @@ TYPED_TEST(WideFloatTest, ArithmeticIsTheScalarOne) {
   }
 }
 
+TYPED_TEST(WideFloatTest, InverseRootIsWithinAPartIn40000) {
+  constexpr int N = TypeParam::kCount;
+  float worst = 0.0f;
+  for (float first = 1.0e-34f; first < 1.0e34f; first *= 1.37f) {
+    const auto a = ramp<N>(first, 0.1f * first);
+    const auto inverse = lanes_of(inverse_root(load<N>(a.data()), 3.0f));
+    for (std::size_t i = 0; i < N; ++i) worst = std::max(worst, std::abs(inverse[i] * std::sqrt(a[i]) / 3.0f - 1.0f));
+  }
+  EXPECT_LT(worst, 2.5e-5f);
+  EXPECT_TRUE(std::isfinite(lanes_of(inverse_root(broadcast<N>(0.0f), 3.0f))[0]));
+}
+
+TYPED_TEST(WideFloatTest, ShiftRightTakesZerosIn) {
+  constexpr int N = TypeParam::kCount;
+  std::array<int, N> bits;
+  store_int(shift_right(broadcast_int<N>(-8), 1), bits.data());
+  for (const int lane : bits) EXPECT_EQ(lane, 0x7ffffffc);
+}
+
 TYPED_TEST(WideFloatTest, SelectTakesLanesAndNaNsCompareFalse) {
   constexpr int N = TypeParam::kCount;
   auto a = ramp<N>(0.0f, 1.0f);
