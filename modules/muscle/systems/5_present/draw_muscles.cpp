@@ -10,7 +10,8 @@
 namespace fascicle::muscle {
 namespace {
 
-static_assert(sizeof(SurfaceVertex) == sizeof(DrawVertex) && offsetof(SurfaceVertex, normal) == offsetof(DrawVertex, normal));
+static_assert(sizeof(SurfaceVertex) == sizeof(DrawVertex));
+static_assert(offsetof(SurfaceVertex, normal) == offsetof(DrawVertex, normal));
 static_assert(sizeof(SurfaceRow) == sizeof(StripRow) && offsetof(SurfaceRow, muscle) == offsetof(StripRow, item));
 static_assert(kRestartIndex == kPrimitiveRestart);
 

@@ -1,5 +1,5 @@
-// From muscles to the renderer's strip surfaces: once per asset the constant topology, once a step the surfaces' current
-// vertices. The only part of the module that knows the renderer; a host engine with its own renderer reads
+// From muscles to the renderer's strip surfaces: once per asset the constant topology, once a step the surfaces'
+// current vertices. The only part of the module that knows the renderer; a host engine with its own renderer reads
 // MuscleSurfaces instead and leaves this library (fascicle::muscle_draw) out.
 #pragma once
 
