@@ -5,9 +5,10 @@
 //   (a, c_i, c_{i+1}, c'_{i+1})     b_i . (b_{i+1} x w_{i+1})
 //   (a, c_i, c'_{i+1}, c'_i)        b_i . (w_{i+1} x w_i)
 //
-// They are summed with their signs. Where all are positive that is the method's sum of absolute values; where a_k lies
-// outside its slice (page 2's negative radii) or a bend folds sections over each other, it is still the volume that
-// the surface encloses, which the sum of absolute values is not.
+// of which the last two are together b_i . (w_{i+1} x (w_i - b_{i+1})). They are summed with their signs. Where all are
+// positive that is the method's sum of absolute values; where a_k lies outside its slice (page 2's negative radii) or a
+// bend folds sections over each other, it is still the volume that the surface encloses, which the sum of absolute
+// values is not.
 //
 // Eight prisms side by side go down the muscle together, one section after the other, in registers alone. Lanes are
 // fixed at 8 on every instruction set, since the order of summation depends on their number.
@@ -47,8 +48,7 @@ FASCICLE_INLINE WideFloat<8> measure_prisms(const Edge& from, const Edge& to) {
   const WideVector<8> step{broadcast<8>(to.ax - from.ax), broadcast<8>(to.ay - from.ay),
                            broadcast<8>(to.az - from.az)};
   const WideVector<8> w = step + to.here, w_next = step + to.next;
-  return dot(step, cross(to.here, to.next)) + dot(from.here, cross(from.next, w_next)) +
-         dot(from.here, cross(w_next, w));
+  return dot(step, cross(to.here, to.next)) + dot(from.here, cross(w_next, w - from.next));
 }
 
 inline void measure_volume(const MeasureVolumeJob& job) {

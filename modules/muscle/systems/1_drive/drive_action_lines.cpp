@@ -30,8 +30,9 @@ void hold_muscles(const MuscleAsset& asset, const BoneMatrices* bones, const Mtu
 
 }  // namespace
 
-void drive_action_lines(ecs::View<const Musculature, ActionLines> musculatures, ecs::View<const BoneMatrices> characters,
-                        ecs::Resource<const MuscleSettings> settings, ecs::Resource<const CostLedger> ledger) {
+void drive_action_lines(ecs::View<const Musculature, ActionLines> musculatures,
+                        ecs::View<const BoneMatrices> characters, ecs::Resource<const MuscleSettings> settings,
+                        ecs::Resource<const CostLedger> ledger) {
   const MtuKernels& kernels = mtu_kernels(settings->simd);
   const SystemCosts costs = ledger->system("drive_action_lines");
   const auto drive = [&](ecs::Entity entity, const Musculature& musculature, ActionLines& lines) {

@@ -12,7 +12,8 @@
 
 namespace fascicle::muscle {
 
-void drive_action_lines(ecs::View<const Musculature, ActionLines> musculatures, ecs::View<const BoneMatrices> characters,
-                        ecs::Resource<const MuscleSettings> settings, ecs::Resource<const CostLedger> ledger);
+void drive_action_lines(ecs::View<const Musculature, ActionLines> musculatures,
+                        ecs::View<const BoneMatrices> characters, ecs::Resource<const MuscleSettings> settings,
+                        ecs::Resource<const CostLedger> ledger);
 
 }  // namespace fascicle::muscle
