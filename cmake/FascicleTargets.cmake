@@ -9,8 +9,6 @@ target_compile_options(fascicle_flags INTERFACE
   $<BUILD_INTERFACE:-march=x86-64-v2 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi>
   # GCC 12 sees overlaps in string concatenations that are none (its bug 105651).
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>)
-target_include_directories(fascicle_flags SYSTEM INTERFACE
-  $<INSTALL_INTERFACE:${CMAKE_INSTALL_PREFIX}/include>)
 target_include_directories(fascicle_flags INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
   $<INSTALL_INTERFACE:include/fascicle>)

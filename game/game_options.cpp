@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/math/simd_level.hpp"
+
 namespace fascicle::game {
 namespace {
 
@@ -58,6 +60,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     return parsed;
   }
   options.draw = !no_draw;
+  if (const auto level = parse_simd_level(options.simd); level && *level > detect_simd()) {
+    std::fprintf(stderr, "--simd %s: this processor has no more than %s; leave the option out\n",
+                 options.simd.c_str(), std::string(to_string(detect_simd())).c_str());
+    parsed.exit_status = kExitUsage;
+  }
   if (!screenshot.empty()) options.screenshot = parse_screenshot(screenshot);
   if (!options.draw && (options.screenshot || !options.contact_sheet_file.empty())) {
     std::fprintf(stderr, "--screenshot and --contact-sheet need drawing; leave out --no-draw\n");

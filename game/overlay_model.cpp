@@ -56,12 +56,12 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
       const muscle::MuscleAsset& asset = *character.asset->muscles;
       const auto& measures = simulation.world().get<muscle::MuscleMeasures>(character.musculature);
       const auto& lines = simulation.world().get<muscle::ActionLines>(character.musculature);
-      item_states_.resize(asset.size());
       for (std::size_t m = 0; m < asset.size(); ++m) {
+        const ItemState& state = item_state(asset.muscles[m].name);
         items_.push_back({asset.muscles[m].name,
                           {measures.length[m] * 1e3f, measures.volume[m] * 1e6f, measures.force[m]},
-                          item_states_[m].visible,
-                          item_states_[m].highlighted,
+                          state.visible,
+                          state.highlighted,
                           lines.held[m] != 0});
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,12 @@ class OverlayFeed {
   void clear_messages();
   bool has_errors() const { return !errors_.empty(); }
 
-  // Per muscle of the shown character.
+  // What the user set for a muscle of the shown character, by its name.
   struct ItemState {
     bool visible = true;
     bool highlighted = false;
   };
-  std::vector<ItemState>& item_states() { return item_states_; }
+  ItemState& item_state(const std::string& name) { return item_states_[name]; }
 
  private:
   std::string title_, subtitle_;
@@ -59,7 +60,7 @@ class OverlayFeed {
   std::vector<OverlaySwitch> switches_;
   std::array<OverlaySlider, 1> sliders_;
   std::vector<OverlayItem> items_;
-  std::vector<ItemState> item_states_;
+  std::map<std::string, ItemState> item_states_;
   OverlayModel model_;
 };
 

@@ -33,10 +33,11 @@ RunRecorder::RunRecorder(const GameOptions& options, Simulation& simulation, std
                   fmt::format("{} on {} cores", simulation.workers().workers(), parallel::hardware_workers()));
   stats_.set_note("simd", std::string(to_string(simulation.simd())));
   stats_.set_note("characters", std::to_string(simulation.characters().size()));
-  if (options.detail) announce_items(simulation);
+  announce_items(simulation);
 }
 
 void RunRecorder::announce_items(Simulation& simulation) {
+  if (!options_.detail) return;
   std::size_t number = 0;
   for (const SpawnedCharacter& character : simulation.characters()) {
     ++number;
@@ -95,6 +96,11 @@ void RunRecorder::write_picture(const Image& image) {
 
 int RunRecorder::finish(Simulation& simulation) {
   bool written = !picture_failed_;
+  if (options_.screenshot && !picture_written_) {
+    std::fprintf(stderr, "%s: no picture was taken: the run ended after %llu steps; ask for an earlier frame\n",
+                 options_.screenshot->file.c_str(), static_cast<unsigned long long>(simulation.steps()));
+    written = false;
+  }
   stats_.set_memory(simulation.world().memory_by_component());
   if (options_.detail) stats_.add_rows(simulation.world().resource<CostLedger>().statistics());
   if (!options_.stats_file.empty()) written &= explain(stats_.write(options_.stats_file));

@@ -20,6 +20,9 @@ class RunRecorder {
   // `total_frames`: how long the run will be; 0 where nobody knows.
   RunRecorder(const GameOptions& options, Simulation& simulation, std::uint64_t total_frames);
 
+  // Rows per character and muscle, where they were asked for: again after the characters were spawned anew.
+  void announce_items(Simulation& simulation);
+
   // In this order: begin_frame, record_step after each step, record_draw after drawing (if any), end_frame.
   void begin_frame();
   void record_step(Simulation& simulation);
@@ -36,8 +39,6 @@ class RunRecorder {
   const FrameStats& stats() const { return stats_; }
 
  private:
-  void announce_items(Simulation& simulation);
-
   const GameOptions& options_;
   FrameStats stats_;
   std::optional<Trace> trace_;

@@ -37,18 +37,20 @@ class WindowRun {
 
   int run() {
     auto last = std::chrono::steady_clock::now();
-    while (!screen_.window->should_close()) {
+    while (!is_over()) {
       const auto now = std::chrono::steady_clock::now();
       const double seconds = std::chrono::duration<double>(now - last).count();
       last = now;
       frame(seconds);
-      if (is_over()) break;
     }
     return recorder_.finish(simulation_);
   }
 
  private:
-  bool is_over() const { return options_.frames && simulation_.steps() >= *options_.frames; }
+  // The window is closing, or the frames that were asked for are done: this is the last picture.
+  bool is_over() const {
+    return screen_.window->should_close() || (options_.frames && simulation_.steps() >= *options_.frames);
+  }
 
   void frame(double seconds) {
     const InputState& input = screen_.window->poll();
@@ -95,9 +97,11 @@ class WindowRun {
     scene_view_.release();
     simulation_.swap_scene(outcome->scene);
     scene_view_.attach();
+    recorder_.announce_items(simulation_);
+    apply_item_states();
     // The new things show nothing until a step has written them.
     scene_view_.begin_step();
-    simulation_.step();
+    simulation_.refresh();
     std::fprintf(stderr, "content reloaded\n");
   }
 
@@ -128,14 +132,23 @@ class WindowRun {
   }
 
   void flip(int item, bool OverlayFeed::ItemState::* field) {
-    auto& states = feed_.item_states();
+    const SpawnedCharacter& shown = simulation_.characters()[shown_character_];
     const std::size_t index = static_cast<std::size_t>(item);
-    if (index >= states.size()) return;
-    states[index].*field = !(states[index].*field);
-    scene_view_.set_muscle_flags(simulation_.characters()[shown_character_].scene_index,
-                                 static_cast<std::uint32_t>(item),
-                                 (states[index].visible ? 0u : kItemHidden) |
-                                     (states[index].highlighted ? kItemHighlighted : 0u));
+    if (!shown.asset->muscles || index >= shown.asset->muscles->size()) return;
+    OverlayFeed::ItemState& state = feed_.item_state(shown.asset->muscles->muscles[index].name);
+    state.*field = !(state.*field);
+    apply_item_states();
+  }
+
+  // What the user hid or marked, by the muscles' names, so that it outlives a reload.
+  void apply_item_states() {
+    const SpawnedCharacter& shown = simulation_.characters()[shown_character_];
+    if (!shown.asset->muscles) return;
+    for (std::uint32_t m = 0; m < shown.asset->muscles->size(); ++m) {
+      const OverlayFeed::ItemState& state = feed_.item_state(shown.asset->muscles->muscles[m].name);
+      scene_view_.set_muscle_flags(shown.scene_index, m,
+                                   (state.visible ? 0u : kItemHidden) | (state.highlighted ? kItemHighlighted : 0u));
+    }
   }
 
   void toggle_pause() { simulation_.loop().set_paused(!simulation_.loop().paused()); }

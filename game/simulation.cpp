@@ -7,7 +7,6 @@
 #include "engine/animation/joint_systems.hpp"
 #include "engine/animation/pose_systems.hpp"
 #include "engine/animation/skinning_systems.hpp"
-#include "engine/loop/cost_ledger.hpp"
 #include "engine/math/state_hash.hpp"
 #include "modules/muscle/muscle.hpp"
 
@@ -33,7 +32,6 @@ Simulation::Simulation(std::shared_ptr<const muscle::SceneAsset> scene, const Si
     : scene_(std::move(scene)), options_(options), workers_(options.workers),
       loop_(1.0f / scene_->step_hz, kMaxCatchUpSteps) {
   world_.set_resource(loop_.time());
-  world_.set_resource(CostLedger{});
   muscle::prepare_muscles(world_, {.simd = options_.simd});
 
   schedule_.add("advance_clips", advance_clips);
@@ -122,28 +120,48 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
 
 void Simulation::swap_scene(std::shared_ptr<const muscle::SceneAsset> scene) {
   struct PlayerState {
-    std::size_t scene_index;
-    float clip_time;
-    double motion_time;
+    muscle::AnimationChoice choice;
+    float clip_time = 0.0f;
+    double motion_time = 0.0;
   };
   std::vector<PlayerState> states;
   for (const SpawnedCharacter& character : characters_) {
     const ClipPlayer* clip = world_.try_get<ClipPlayer>(character.entity);
     const MotionPlayer* motion = world_.try_get<MotionPlayer>(character.entity);
-    states.push_back({character.scene_index, clip ? clip->time : 0.0f, motion ? motion->time : 0.0});
+    states.push_back({scene_->characters[character.scene_index].animation, clip ? clip->time : 0.0f,
+                      motion ? motion->time : 0.0});
   }
-  despawn_all();
   const std::size_t before = scene_->characters.size();
+  despawn_all();
   scene_ = std::move(scene);
+  loop_.set_step(1.0f / scene_->step_hz);
   spawn_all();
-  // Copies are spawned scene by scene, so places match only while the number of characters is the same.
-  if (before != scene_->characters.size()) return;
+
+  // Each goes on from where it is; one whose phase or speed was edited stands where a fresh start would have brought it.
+  const std::size_t now = scene_->characters.size();
   for (std::size_t i = 0; i < characters_.size(); ++i) {
-    if (ClipPlayer* clip = world_.try_get<ClipPlayer>(characters_[i].entity)) clip->time = states[i].clip_time;
+    const std::size_t place = characters_[i].scene_index;
+    if (place >= before) continue;
+    const PlayerState& state = states[i / now * before + place];
+    const muscle::AnimationChoice& choice = scene_->characters[place].animation;
+    const bool goes_on = choice.phase == state.choice.phase && choice.speed == state.choice.speed;
+    const double elapsed = static_cast<double>(choice.speed) * loop_.time().time;
+    if (ClipPlayer* clip = world_.try_get<ClipPlayer>(characters_[i].entity)) {
+      clip->time = goes_on ? state.clip_time : clip->time + static_cast<float>(elapsed);
+    }
     if (MotionPlayer* motion = world_.try_get<MotionPlayer>(characters_[i].entity)) {
-      motion->time = states[i].motion_time;
+      motion->time = goes_on ? state.motion_time : motion->time + elapsed;
     }
   }
+  refresh();
+  start_ = root_position();
+}
+
+void Simulation::refresh() {
+  FrameTime standing = loop_.time();
+  standing.step = 0.0f;
+  world_.resource<FrameTime>() = standing;
+  schedule_.run(world_, workers_);
 }
 
 std::uint64_t Simulation::hash() const {

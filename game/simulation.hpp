@@ -54,9 +54,13 @@ class Simulation {
   std::uint64_t clamped_steps() const { return loop_.clamped_steps(); }
 
   // Replaces the scene by a newer version of itself, between two steps. Characters that are still there go on from
-  // where their animation is; what the systems derive is spawned anew, so that the state is that of a fresh start.
-  // Callers that hold entities (drawing) must let go of them before and look at characters() afterwards.
+  // where their animation is; what the systems derive is spawned anew and evaluated, so that the state is that of a
+  // fresh start. Callers that hold entities (drawing) must let go of them before, look at characters() afterwards, and
+  // call refresh once their own things stand, if their systems are to see the new characters before the next step.
   void swap_scene(std::shared_ptr<const muscle::SceneAsset> scene);
+
+  // Runs all systems again at the same moment: a step of no length, which is not counted.
+  void refresh();
 
   // How far the first character has moved over the ground since its start, m: what a camera follows.
   glm::vec3 travel() const;

@@ -42,8 +42,16 @@ int FrameLoop::begin_frame(double wall_seconds) {
 const FrameTime& FrameLoop::advance() {
   time_.frame = steps_++;
   // A product, not a sum: no rounding builds up over the hours.
-  time_.time = static_cast<double>(steps_) * static_cast<double>(time_.step);
+  time_.time = base_ + static_cast<double>(steps_ - base_steps_) * static_cast<double>(time_.step);
   return time_;
+}
+
+void FrameLoop::set_step(float step_seconds) {
+  assert(step_seconds > 0 && std::isfinite(step_seconds));
+  if (step_seconds == time_.step) return;
+  base_ = time_.time;
+  base_steps_ = steps_;
+  time_.step = step_seconds;
 }
 
 bool FrameLoop::set_time_scale(float scale) {

@@ -36,12 +36,16 @@ class FrameLoop {
   bool paused() const { return time_.paused; }
   // One step at the next begin_frame although paused; requests add up.
   void request_single_step() { ++single_steps_; }
+  // Another step length from now on, > 0 and finite (asserted); the simulated time so far stays.
+  void set_step(float step_seconds);
   // Simulated seconds per wall second, at least 0; anything else is refused and false returned.
   bool set_time_scale(float scale);
 
  private:
   FrameTime time_;
-  double due_ = 0;  // simulated time not yet stepped, s
+  double due_ = 0;   // simulated time not yet stepped, s
+  double base_ = 0;  // simulated time when the step length was last set, s
+  std::uint64_t base_steps_ = 0;  // and the steps until then
   int max_catch_up_steps_;
   int single_steps_ = 0;
   std::uint64_t steps_ = 0;

@@ -1,5 +1,6 @@
 #include "modules/muscle/spawn_muscles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -85,7 +86,9 @@ void hash_arrays(std::initializer_list<const AlignedVector<T>*> arrays, StateHas
 }  // namespace
 
 void prepare_muscles(ecs::World& world, const MuscleSettings& settings) {
-  world.set_resource(settings);
+  MuscleSettings usable = settings;
+  usable.simd = std::min(settings.simd, detect_simd());
+  world.set_resource(usable);
   if (world.try_resource<CostLedger>() == nullptr) world.set_resource(CostLedger{});
   for (const std::string_view system : kTimedSystems) world.resource<CostLedger>().add_system(system);
 }

@@ -24,6 +24,7 @@ struct MuscleAsset;
 
 // Must be called once per world before a schedule with muscle systems runs; again to change the settings. Gives the
 // world the resources MuscleSettings and, where it has none, CostLedger (engine/loop/cost_ledger.hpp).
+// A SIMD level that the processor lacks is lowered to the best it has.
 void prepare_muscles(ecs::World& world, const MuscleSettings& settings = {});
 
 // Makes a musculature of `asset` for `character`, which must have BoneMatrices with at least asset->bone_count

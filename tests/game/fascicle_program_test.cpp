@@ -82,6 +82,18 @@ TEST_F(FascicleProgram, FilesThatCannotBeWrittenAreReported) {
   EXPECT_THAT(err(), HasSubstr("taken/r.json"));
 }
 
+TEST_F(FascicleProgram, APictureOfAFrameThatNeverComesIsAnError) {
+  const int status = run("--headless --frames 2 --width 64 --height 64 --screenshot '" + file("p.png@1") + "'");
+  if (status == kExitNoOutput && err().find("EGL") != std::string::npos) GTEST_SKIP() << err();
+  std::ofstream(file("short.scene.json"))
+      << "{ \"version\": 1, \"name\": \"short\", \"frames\": 2, \"characters\": [ { \"file\": \"" FASCICLE_SOURCE_DIR
+         "/content/characters/walker/walker.character.json\" } ] }";
+  EXPECT_EQ(run("--headless --width 64 --height 64 --scene '" + file("short.scene.json") + "' --screenshot '" +
+                file("late.png@5") + "'"),
+            kExitNoOutput);
+  EXPECT_THAT(err(), HasSubstr("late.png"));
+}
+
 TEST_F(FascicleProgram, WritesStatisticsTraceReportAndHash) {
   ASSERT_EQ(run("--headless --no-draw --frames 25 --threads 2 --characters 2 --hash --stats '" + file("s.csv") +
                 "' --trace '" + file("t.json") + "' --report '" + file("r.json") + "'"),

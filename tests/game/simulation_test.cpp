@@ -95,6 +95,41 @@ TEST(Simulation, SwappingInTheSameSceneChangesNothing) {
   EXPECT_EQ(simulation.hash(), hash_after(scene, 60, {.workers = 1}));
 }
 
+TEST(Simulation, ARefreshIsNoStep) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 1});
+  for (int i = 0; i < 20; ++i) simulation.step();
+  const std::uint64_t before = simulation.hash();
+  simulation.refresh();
+  EXPECT_EQ(simulation.hash(), before);
+  EXPECT_EQ(simulation.steps(), 20u);
+}
+
+TEST(Simulation, AReloadedStepLengthAndSpeedTakeEffect) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  Simulation simulation(scene, {.workers = 1});
+  for (int i = 0; i < 30; ++i) simulation.step();
+  auto edited = std::make_shared<muscle::SceneAsset>(*scene);
+  edited->step_hz = 30.0f;
+  edited->characters[0].animation.speed = 0.5f;
+  simulation.swap_scene(edited);
+  EXPECT_FLOAT_EQ(simulation.loop().time().step, 1.0f / 30.0f);
+  const double before = simulation.loop().time().time;
+  simulation.step();
+  EXPECT_NEAR(simulation.loop().time().time - before, 1.0 / 30.0, 1e-7);
+
+  // A fresh start at the edited speed reaches the same pose.
+  Simulation fresh(edited, {.workers = 1});
+  while (fresh.loop().time().time < simulation.loop().time().time - 1e-6) fresh.step();
+  const auto& here = simulation.world().get<BoneMatrices>(simulation.characters()[0].entity).world;
+  const auto& there = fresh.world().get<BoneMatrices>(fresh.characters()[0].entity).world;
+  for (std::size_t bone = 0; bone < here.size(); ++bone) {
+    EXPECT_LT(glm::length(glm::vec3(here[bone][3] - there[bone][3])), 1e-4f);
+  }
+}
+
 TEST(Simulation, CopiesAreNotInLockstepAndStandApart) {
   const auto scene = load("walker");
   ASSERT_TRUE(scene);

@@ -132,5 +132,17 @@ TEST(FrameLoop, KeepsUpWithAnUnevenClock) {
   }
 }
 
+TEST(FrameLoop, AnotherStepLengthGoesOnFromTheSameMoment) {
+  FrameLoop loop(0.5f, 4);
+  loop.advance();
+  loop.advance();
+  EXPECT_DOUBLE_EQ(loop.time().time, 1.0);
+  loop.set_step(0.25f);
+  EXPECT_EQ(loop.begin_frame(0.5), 2);
+  EXPECT_DOUBLE_EQ(loop.advance().time, 1.25);
+  EXPECT_EQ(loop.time().frame, 2u);
+  EXPECT_DOUBLE_EQ(loop.advance().time, 1.5);
+}
+
 }  // namespace
 }  // namespace fascicle
