@@ -6,7 +6,7 @@
 // graphics processor does between them, so neither shape nor shading changes as a tendon's end passes by; sections'
 // own differences skip it.
 //
-// A muscle is written front to back, four sections at a time in different stages of work, in the first-level cache: a
+// A muscle is written front to back, three sections at a time in different stages of work, in the first-level cache: a
 // vertex's chain of dependent operations is 70 cycles long, and the processor sees only two vectors' worth of
 // instructions ahead. So each stage's results are of no use to any instruction nearby.
 // For the kernels' source files only (see engine/math/wide_float.hpp).
@@ -34,9 +34,9 @@ FASCICLE_INLINE WideFloat<N> pack_normal(WideVector<N> n) {
 
 // A row's normals between its stages.
 struct ShadedRow {
-  alignas(64) float x[kMaxSectionVertices], y[kMaxSectionVertices], z[kMaxSectionVertices];  // e x d
-  alignas(64) float squared[kMaxSectionVertices];
-  alignas(64) float scale[kMaxSectionVertices];  // kPackedLength / |e x d|
+  alignas(64) float x[kRowCapacity], y[kRowCapacity], z[kRowCapacity];  // e x d
+  alignas(64) float squared[kRowCapacity];
+  alignas(64) float scale[kRowCapacity];  // kPackedLength / |e x d|
 };
 
 template <int N>
@@ -44,11 +44,11 @@ FASCICLE_INLINE WideVector<N> load_normals(const ShadedRow& row, std::size_t i) 
   return {load<N>(row.x + i), load<N>(row.y + i), load<N>(row.z + i)};
 }
 template <int N>
-FASCICLE_INLINE void store_normals(WideVector<N> normal, std::size_t i, ShadedRow& row) {
+FASCICLE_INLINE void store_normals(WideVector<N> normal, WideFloat<N> squared, std::size_t i, ShadedRow& row) {
   store(normal.x, row.x + i);
   store(normal.y, row.y + i);
   store(normal.z, row.z + i);
-  store(dot(normal, normal), row.squared + i);
+  store(inverse_root(squared, kPackedLength), row.scale + i);
 }
 
 // What a muscle is written by; section k is in window[k & 3], its normals in shaded[k & 3].
@@ -57,44 +57,36 @@ struct SurfaceScratch {
   ShadedRow shaded[4];
 };
 
-// Stage 2, after make_row: normals from the differences.
-template <bool kEight>
-FASCICLE_INLINE void shade_row(const SectionLayout& layout, std::uint32_t k, SurfaceScratch& scratch) {
-  const std::uint32_t last = layout.section_count - 1;
-  const SectionRow& before = scratch.window[(k == 0 ? 0 : k - 1) & 3];
-  const SectionRow& here = scratch.window[k & 3];
-  const SectionRow& next = scratch.window[(k == last ? last : k + 1) & 3];
-  ShadedRow& shaded = scratch.shaded[k & 3];
-  for_lanes<kEight>(layout.section_vertices, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-    constexpr int N = decltype(lanes)::kCount;
-    const WideVector<N> d = load_vertices<N>(next, i) - load_vertices<N>(before, i);
-    store_normals(cross(load_differences<kEight, N>(here, i), d), i, shaded);
-  });
-}
-
 // Puts the radial direction in the place of normals that have vanished.
 [[gnu::noinline, gnu::cold]] inline void replace_vanished(const SectionsView& view, const SectionLayout& layout,
                                                           std::uint32_t k, ShadedRow& shaded) {
   const SectionFrame frame = load_frame(view, layout, k);
   for_lanes<false>(layout.section_vertices, [&](auto lanes, std::size_t i) {
     constexpr int N = decltype(lanes)::kCount;
-    const WideInt<N> vanished = load<N>(shaded.squared + i) < broadcast<N>(kSmallestNormalSquared);
-    const WideVector<N> radial = radial_direction<N>(frame, view.circles[layout.circle], i);
-    store_normals(select(vanished, radial, load_normals<N>(shaded, i)), i, shaded);
-    store(inverse_root(load<N>(shaded.squared + i), kPackedLength), shaded.scale + i);
+    const WideVector<N> normal = load_normals<N>(shaded, i);
+    const WideInt<N> vanished = dot(normal, normal) < broadcast<N>(kSmallestNormalSquared);
+    const WideVector<N> sure = select(vanished, radial_direction<N>(frame, view.circles[layout.circle], i), normal);
+    store_normals(sure, dot(sure, sure), i, shaded);
   });
 }
 
-// Stage 3: lengths.
+// Stage 2, after make_row: normals from the differences, and what scales them.
 template <bool kEight>
-FASCICLE_INLINE void scale_row(const SectionsView& view, const SectionLayout& layout, std::uint32_t k,
-                               ShadedRow& shaded) {
+FASCICLE_INLINE void shade_row(const SectionsView& view, const SectionLayout& layout, std::uint32_t k,
+                               SurfaceScratch& scratch) {
+  const std::uint32_t last = layout.section_count - 1;
+  const SectionRow& before = scratch.window[(k == 0 ? 0 : k - 1) & 3];
+  const SectionRow& here = scratch.window[k & 3];
+  const SectionRow& next = scratch.window[(k == last ? last : k + 1) & 3];
+  ShadedRow& shaded = scratch.shaded[k & 3];
   bool vanished = false;
   for_lanes<kEight>(layout.section_vertices, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
     constexpr int N = decltype(lanes)::kCount;
-    const WideFloat<N> squared = load<N>(shaded.squared + i);
+    const WideVector<N> d = load_vertices<N>(next, i) - load_vertices<N>(before, i);
+    const WideVector<N> normal = cross(load_differences<kEight, N>(here, i), d);
+    const WideFloat<N> squared = dot(normal, normal);
     vanished |= any(squared < broadcast<N>(kSmallestNormalSquared));
-    store(inverse_root(squared, kPackedLength), shaded.scale + i);
+    store_normals(normal, squared, i, shaded);
   });
   if (vanished) [[unlikely]] replace_vanished(view, layout, k, shaded);
 }
@@ -104,7 +96,7 @@ FASCICLE_INLINE void write_vertices(WideVector<N> c, WideVector<N> normal, float
   store_records<kStream>(c.x, c.y, c.z, pack_normal(normal), to);
 }
 
-// Stage 4: the section as it is drawn.
+// Stage 3: the section as it is drawn.
 template <bool kStream, bool kEight>
 FASCICLE_INLINE void write_row(const SectionLayout& layout, const SectionRow& row, const ShadedRow& shaded, float* to) {
   for_lanes<kEight>(layout.section_vertices, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
@@ -157,7 +149,6 @@ inline float* write_rows(const SectionsView& view, const SectionLayout& layout, 
   make_row<kEight>(view, layout, 0, scratch.window[0]);
   make_row<kEight>(view, layout, 1, scratch.window[1]);
   for (std::uint32_t k = 0; k < count + 2; ++k) {
-    if (k >= 1 && k - 1 < count) scale_row<kEight>(view, layout, k - 1, scratch.shaded[(k - 1) & 3]);
     if (k >= 2) {
       write_row<kStream, kEight>(layout, scratch.window[(k - 2) & 3], scratch.shaded[(k - 2) & 3], to);
       to += floats;
@@ -168,7 +159,7 @@ inline float* write_rows(const SectionsView& view, const SectionLayout& layout, 
       }
     }
     if (k + 2 < count) make_row<kEight>(view, layout, k + 2, scratch.window[(k + 2) & 3]);
-    if (k < count) shade_row<kEight>(layout, k, scratch);
+    if (k < count) shade_row<kEight>(view, layout, k, scratch);
   }
   return to;
 }
