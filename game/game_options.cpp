@@ -1,6 +1,8 @@
 #include "game/game_options.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -9,7 +11,7 @@
 namespace fascicle::game {
 namespace {
 
-// FILE or FILE@FRAME. An '@' that no whole number follows belongs to the file's name.
+// FILE or FILE@FRAME, frames counted from 1. An '@' that no such number follows belongs to the file's name.
 ScreenshotRequest parse_screenshot(const std::string& text) {
   const std::size_t at = text.rfind('@');
   if (at != std::string::npos && at + 1 < text.size()) {
@@ -65,14 +67,30 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  options.simd.c_str(), std::string(to_string(detect_simd())).c_str());
     parsed.exit_status = kExitUsage;
   }
-  if (!screenshot.empty()) options.screenshot = parse_screenshot(screenshot);
-  if (!options.draw && (options.screenshot || !options.contact_sheet_file.empty())) {
-    std::fprintf(stderr, "--screenshot and --contact-sheet need drawing; leave out --no-draw\n");
+  const auto refuse = [&](const char* text) {
+    std::fprintf(stderr, "%s\n", text);
     parsed.exit_status = kExitUsage;
+  };
+  for (const char* name : {"--screenshot", "--stats", "--trace", "--report", "--contact-sheet"}) {
+    const CLI::Option* option = app.get_option(name);
+    if (option->count() > 0 && option->as<std::string>().empty()) refuse("an output file needs a name");
+  }
+  if (!screenshot.empty()) options.screenshot = parse_screenshot(screenshot);
+  if (!options.contact_sheet_file.empty() && !options.headless) {
+    refuse("--contact-sheet is made by a headless run; add --headless");
+  }
+  std::vector<std::string> outputs = {options.stats_file, options.trace_file, options.report_file,
+                                      options.contact_sheet_file, options.screenshot ? options.screenshot->file : ""};
+  std::erase(outputs, "");
+  std::sort(outputs.begin(), outputs.end());
+  if (std::adjacent_find(outputs.begin(), outputs.end()) != outputs.end()) {
+    refuse("two outputs have the same file name; give each its own");
+  }
+  if (!options.draw && (options.screenshot || !options.contact_sheet_file.empty())) {
+    refuse("--screenshot and --contact-sheet need drawing; leave out --no-draw");
   }
   if (!options.draw && !options.headless) {
-    std::fprintf(stderr, "--no-draw leaves nothing to show in a window; add --headless\n");
-    parsed.exit_status = kExitUsage;
+    refuse("--no-draw leaves nothing to show in a window; add --headless");
   }
   if (options.screenshot && options.screenshot->frame && options.frames &&
       *options.screenshot->frame > *options.frames) {

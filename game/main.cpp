@@ -1,6 +1,8 @@
 // fascicle: the game. Loads a scene and its characters, registers the systems and runs them, in a window or headless.
 
 #include <cstdio>
+#include <exception>
+#include <new>
 
 #include "game/game_options.hpp"
 #include "game/run_headless.hpp"
@@ -9,8 +11,11 @@
 #include "modules/muscle/content/find_content.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 
-int main(int argc, char** argv) {
-  using namespace fascicle;
+namespace {
+
+using namespace fascicle;
+
+int run(int argc, char** argv) {
   const game::ParsedOptions parsed = game::parse_options(argc, argv);
   if (parsed.exit_status) return *parsed.exit_status;
   const game::GameOptions& options = parsed.options;
@@ -36,4 +41,22 @@ int main(int argc, char** argv) {
     return game::kExitOk;
   }
   return options.headless ? game::run_headless(options, *scene) : game::run_window(options, file, *scene);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int status = game::kExitNoOutput;
+  try {
+    status = run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "Out of memory; ask for fewer characters or a coarser level of detail.\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "The run ended early: %s\n", error.what());
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "The output could not be written; check where it goes and that there is room.\n");
+    if (status == game::kExitOk) status = game::kExitNoOutput;
+  }
+  return status;
 }

@@ -78,7 +78,12 @@ void RunRecorder::end_frame(const Simulation& simulation) {
   ++frames_;
   stats_.set_clamped_steps(simulation.clamped_steps());
   stats_.end_frame();
-  if (trace_) trace_->add_frame(frames_, frame_start_ns_, monotonic_ns());
+  if (!trace_) return;
+  const std::int64_t now = monotonic_ns();
+  trace_->add_frame(frames_, frame_start_ns_, now);
+  trace_->add_counter("frame ms", now, static_cast<double>(now - frame_start_ns_) * 1e-6);
+  trace_->add_counter("muscles held", now, static_cast<double>(simulation.held_steps()));
+  trace_->add_counter("steps dropped", now, static_cast<double>(simulation.clamped_steps()));
 }
 
 bool RunRecorder::wants_picture(const Simulation& simulation, bool is_last) const {
@@ -100,6 +105,12 @@ int RunRecorder::finish(Simulation& simulation) {
     std::fprintf(stderr, "%s: no picture was taken: the run ended after %llu steps; ask for an earlier frame\n",
                  options_.screenshot->file.c_str(), static_cast<unsigned long long>(simulation.steps()));
     written = false;
+  }
+  if (const std::uint64_t held = simulation.held_steps(); held > 0) {
+    std::fprintf(stderr,
+                 "warning: muscles kept their last shape %llu times because their bones were not finite or too far "
+                 "from the origin for single precision\n",
+                 static_cast<unsigned long long>(held));
   }
   stats_.set_memory(simulation.world().memory_by_component());
   if (options_.detail) stats_.add_rows(simulation.world().resource<CostLedger>().statistics());

@@ -174,9 +174,17 @@ std::uint64_t Simulation::hash() const {
   return hash.value();
 }
 
+std::uint64_t Simulation::held_steps() const {
+  std::uint64_t held = 0;
+  for (const SpawnedCharacter& character : characters_) {
+    if (character.musculature == ecs::kNoEntity) continue;
+    held += world_.get<muscle::ActionLines>(character.musculature).held_steps;
+  }
+  return held;
+}
+
 void Simulation::record_metrics(Report& report) const {
   double length = 0.0, volume = 0.0, worst_stretch = 0.0;
-  std::uint64_t held = 0;
   std::size_t muscles = 0;
   for (const SpawnedCharacter& character : characters_) {
     if (character.musculature == ecs::kNoEntity) continue;
@@ -188,13 +196,12 @@ void Simulation::record_metrics(Report& report) const {
       worst_stretch = std::max(worst_stretch, static_cast<double>(measures.length[m] / asset.muscles[m].rest_length));
     }
     muscles += asset.size();
-    held += world_.get<muscle::ActionLines>(character.musculature).held_steps;
   }
   if (muscles == 0) return;
   report.record("muscle.length_mean_m", length / static_cast<double>(muscles));
   report.record("muscle.length_ratio_max", worst_stretch);
   report.record("muscle.volume_total_m3", volume);
-  report.record("muscle.held_steps", static_cast<double>(held));
+  report.record("muscle.held_steps", static_cast<double>(held_steps()));
 }
 
 }  // namespace fascicle::game

@@ -82,6 +82,15 @@ TEST_F(FascicleProgram, FilesThatCannotBeWrittenAreReported) {
   EXPECT_THAT(err(), HasSubstr("taken/r.json"));
 }
 
+TEST_F(FascicleProgram, AFullOutputIsNoticed) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::string command = "'" FASCICLE_PROGRAM "' --headless --no-draw --frames 3 --hash >/dev/full 2>'" +
+                              file("err") + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), kExitNoOutput);
+  EXPECT_THAT(err(), HasSubstr("could not be written"));
+}
+
 TEST_F(FascicleProgram, APictureOfAFrameThatNeverComesIsAnError) {
   const int status = run("--headless --frames 2 --width 64 --height 64 --screenshot '" + file("p.png@1") + "'");
   if (status == kExitNoOutput && err().find("EGL") != std::string::npos) GTEST_SKIP() << err();
@@ -108,15 +117,17 @@ TEST_F(FascicleProgram, WritesStatisticsTraceReportAndHash) {
   Json::Value trace, report;
   Json::Reader reader;
   ASSERT_TRUE(reader.parse(read(folder_ / "t.json"), trace));
-  std::size_t complete = 0, names = 0, marks = 0;
+  std::size_t complete = 0, names = 0, marks = 0, counters = 0;
   for (const Json::Value& event : trace["traceEvents"]) {
     const std::string phase = event["ph"].asString();
     complete += phase == "X";
     names += phase == "M";
     marks += phase == "i";
+    counters += phase == "C";
   }
   EXPECT_GT(complete, 25u * 5u);
   EXPECT_GE(names, 1u);
+  EXPECT_GE(counters, 25u);
   EXPECT_EQ(marks, 25u);
 
   ASSERT_TRUE(reader.parse(read(folder_ / "r.json"), report));

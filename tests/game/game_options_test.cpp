@@ -27,6 +27,10 @@ TEST(GameOptions, WrongArgumentsLeaveWithTheUsageStatus) {
       {"--no-draw"},
       {"--headless", "--frames", "10", "--screenshot", "p.png@11"},
       {"--width", "1"},
+      {"--contact-sheet", "sheet.png"},
+      {"--headless", "--screenshot", ""},
+      {"--headless", "--stats", ""},
+      {"--headless", "--stats", "a.json", "--report", "a.json"},
   };
   for (const auto& arguments : wrong) {
     const ParsedOptions parsed = parse(arguments);

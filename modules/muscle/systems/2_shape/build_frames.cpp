@@ -18,6 +18,12 @@ void build_frames(ecs::View<const Musculature, const ActionLines, CrossSections>
     if (!has_bones(asset, bones)) return;
     const bool jumped = sections.fresh || sections.teleport_count != bones->teleport_count;
     kernels.build_frames(build_frames_job(asset, *bones, lines, jumped, sections));
+    if (jumped && lines.any_held) {
+      // A muscle that was held over the jump starts its twist afresh once it is free again.
+      for (std::size_t lane = 0; lane < sections.twist.size(); ++lane) {
+        if (lines.held_lanes[lane] != 0) sections.twist[lane] = 0.0f;
+      }
+    }
     sections.teleport_count = bones->teleport_count;
     sections.fresh = false;
   };

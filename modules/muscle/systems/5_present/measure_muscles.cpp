@@ -49,6 +49,7 @@ void measure_strength(const MuscleLayout& layout, std::uint32_t muscle, MuscleMe
 void clear(std::uint32_t muscle, MuscleMeasures& measures) {
   measures.length[muscle] = measures.drawn_length[muscle] = measures.volume[muscle] = 0.0f;
   measures.mass[muscle] = measures.pcsa[muscle] = measures.force[muscle] = 0.0f;
+  measures.tendon_point[muscle] = glm::vec3(0.0f);
 }
 
 }  // namespace

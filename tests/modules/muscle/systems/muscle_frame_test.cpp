@@ -241,6 +241,20 @@ TEST(MuscleFrame, TeleportStartsTheTwistAfresh) {
   w.world.get<BoneMatrices>(character).teleport_count += 1;
   w.step();
   EXPECT_NEAR(w.world.get<CrossSections>(muscles).twist[0], glm::radians(-90.0f), 1.0e-4f);
+
+  // The same when the muscle is held in the very step of the jump.
+  for (int degrees = -90; degrees <= 270; degrees += 30) {
+    w.pose(character, turn(degrees));
+    w.step();
+  }
+  auto broken = turn(270);
+  broken[1][3][0] = std::numeric_limits<float>::quiet_NaN();
+  w.pose(character, broken);
+  w.world.get<BoneMatrices>(character).teleport_count += 1;
+  w.step();
+  w.pose(character, turn(270));
+  w.step();
+  EXPECT_NEAR(w.world.get<CrossSections>(muscles).twist[0], glm::radians(-90.0f), 1.0e-4f);
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ TEST(MuscleLifecycle, DetachedMuscleDrawsNothingAndOthersGoOn) {
     for (const SurfaceVertex& vertex : surface_of(*asset, surfaces, 5).vertices) EXPECT_EQ(vertex.position, place);
     EXPECT_EQ(w.world.get<MuscleMeasures>(muscles).volume[5], 0.0f);
     EXPECT_EQ(w.world.get<MuscleMeasures>(muscles).length[5], 0.0f);
+    EXPECT_EQ(w.world.get<MuscleMeasures>(muscles).tendon_point[5], glm::vec3(0.0f));
     EXPECT_GT(w.world.get<MuscleMeasures>(muscles).volume[6], 0.0f);
     EXPECT_NE(surface_of(*asset, surfaces, 6).vertices[0].position, surface_of(*asset, surfaces, 6).vertices[1].position);
     w.pose(character, test::walk_bones(0.2f));
