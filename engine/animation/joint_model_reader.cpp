@@ -84,17 +84,31 @@ class JointModelReader {
     std::size_t kind = 0;
     object.optional_choice("kind", kind, {"rotation", "translation", "coupled"});
     coordinate.kind = static_cast<JointCoordinate::Kind>(kind);
-    object.optional("default", coordinate.default_value, kSane);
+    const JsonNode default_node = object.optional("default");
+    const bool default_known =
+        !default_node.exists() || default_node.read(coordinate.default_value, diagnostics_, kSane);
     std::vector<double> range;
-    if (const JsonNode found = object.require("range"); found.exists() && found.read(range, diagnostics_, kSane)) {
-      if (range.size() != 2 || range[0] > range[1]) {
-        found.error(diagnostics_, "this is not a range", "give two numbers, the smaller first");
-      } else {
-        coordinate.minimum = range[0];
-        coordinate.maximum = range[1];
-      }
+    const JsonNode range_node = object.require("range");
+    bool range_known = range_node.exists() && range_node.read(range, diagnostics_, kSane);
+    if (range_known && (range.size() != 2 || range[0] > range[1])) {
+      range_node.error(diagnostics_, "this is not a range", "give two numbers, the smaller first");
+      range_known = false;
+    }
+    if (range_known) {
+      coordinate.minimum = range[0];
+      coordinate.maximum = range[1];
     }
     object.optional("clamped", coordinate.clamped);
+    // The rest pose is built at the defaults: one that the clamp would move is never the pose of the joint.
+    if (coordinate.clamped && default_known && range_known &&
+        (coordinate.default_value < range[0] || coordinate.default_value > range[1])) {
+      (default_node.exists() ? default_node : range_node)
+          .error(diagnostics_,
+                 fmt::format("the default {} of a clamped coordinate lies outside its range, {} to {}",
+                             coordinate.default_value, range[0], range[1]),
+                 default_node.exists() ? "give a default in the range, widen the range, or leave out \"clamped\""
+                                       : "give a \"default\" in the range (left out: 0), or leave out \"clamped\"");
+    }
     object.optional("locked", coordinate.locked);
     object.optional("coupled_to");
     object.finish();
