@@ -20,7 +20,7 @@ void compose(const Skeleton& skeleton, std::span<const Trs> local, const glm::ma
 }
 
 glm::mat4 to_matrix(const Placement& placement) {
-  return to_matrix(Trs{placement.position, placement.rotation, glm::vec3(placement.scale)});
+  return to_matrix(Trs{placement.position, placement.rotation, glm::vec3(1.0f)});
 }
 
 LocalPose make_rest_pose(std::shared_ptr<const Skeleton> skeleton) {

@@ -40,11 +40,10 @@ struct Skeleton {
   std::int32_t find(std::string_view name) const;
 };
 
-// Where the character stands in the world. `teleport_count` rises with every jump that must not be interpolated over.
+// Where the character stands in the world; its size is a matter of content. `teleport_count` rises with every jump that must not be interpolated over.
 struct Placement {
   glm::vec3 position{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
-  float scale = 1.0f;
   std::uint32_t teleport_count = 0;
 };
 
@@ -56,6 +55,9 @@ struct LocalPose {
 
 // Component: the current bone transforms, bone to world. Written by `compose_bones`, or by a host engine that brings
 // its own animation: this is all that the muscle module needs of a character.
+// Each matrix must be rigid relative to the rest pose that the muscles were built with: world * inverse(rest_world)
+// turns and moves but does not scale, since radii and tendon lengths (m) are fixed when a muscle is built. A character
+// of another size is other content: scale its skeleton's rest pose, skin and muscles, not its placement.
 struct BoneMatrices {
   std::vector<glm::mat4> world;
   std::uint32_t teleport_count = 0;

@@ -66,7 +66,7 @@ class PoseSystems : public testing::Test {
   ecs::Entity spawn(std::shared_ptr<const Clip> clip) {
     const ecs::Entity entity = world_.create();
     world_.add(entity, make_rest_pose(make_skeleton()));
-    world_.add(entity, Placement{{0, 0, 10}, glm::quat(1, 0, 0, 0), 1.0f, 4});
+    world_.add(entity, Placement{{0, 0, 10}, glm::quat(1, 0, 0, 0), 4});
     world_.add(entity, BoneMatrices{});
     world_.add(entity, ClipPlayer{std::move(clip), 0.0f, 1.0f, true});
     return entity;
