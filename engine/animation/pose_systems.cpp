@@ -32,8 +32,15 @@ void compose_bones(ecs::View<const LocalPose, const Placement, BoneMatrices> cha
     for (std::size_t i = begin; i < end; ++i) {
       characters.visit(i, [](const LocalPose& pose, const Placement& placement, BoneMatrices& bones) {
         if (pose.skeleton == nullptr) return;
-        bones.world.resize(pose.bones.size());  // grows in the first frame only
-        compose(*pose.skeleton, pose.bones, to_matrix(placement), bones.world);
+        // Both grow in the first frame only.
+        if (bones.world.size() != pose.bones.size()) bones.world = pose.skeleton->rest_world;
+        bones.next.resize(pose.bones.size());
+        compose(*pose.skeleton, pose.bones, to_matrix(placement), bones.next);
+        if (!are_usable(bones.next)) {
+          ++bones.held_steps;
+          return;
+        }
+        bones.world.swap(bones.next);
         bones.teleport_count = placement.teleport_count;
       });
     }

@@ -21,6 +21,8 @@ struct ClipPlayer {
 
 void advance_clips(ecs::View<ClipPlayer> players, ecs::Resource<const FrameTime> time);
 void sample_clips(ecs::View<const ClipPlayer, LocalPose> characters);
+// Bone matrices from pose and placement. Where one of them comes out NaN, infinite or absurdly large (see are_usable) the
+// character keeps the last good matrices, or before the first its rest pose, and `held_steps` counts the step.
 void compose_bones(ecs::View<const LocalPose, const Placement, BoneMatrices> characters);
 
 }  // namespace fascicle

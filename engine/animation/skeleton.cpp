@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace fascicle {
 
@@ -17,6 +18,15 @@ void compose(const Skeleton& skeleton, std::span<const Trs> local, const glm::ma
     assert(parent < static_cast<std::int32_t>(i));
     world[i] = (parent < 0 ? root : world[static_cast<std::size_t>(parent)]) * to_matrix(local[i]);
   }
+}
+
+bool are_usable(std::span<const glm::mat4> matrices) {
+  bool usable = true;  // one flag and no early exit, so that the loop runs in SIMD
+  for (const glm::mat4& matrix : matrices) {
+    const float* entries = &matrix[0][0];
+    for (int i = 0; i < 16; ++i) usable &= std::abs(entries[i]) <= kLargestMatrixEntry;  // false for NaN
+  }
+  return usable;
 }
 
 glm::mat4 to_matrix(const Placement& placement) {

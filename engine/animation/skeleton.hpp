@@ -61,7 +61,15 @@ struct LocalPose {
 struct BoneMatrices {
   std::vector<glm::mat4> world;
   std::uint32_t teleport_count = 0;
+  std::uint64_t held_steps = 0;      // steps in which `compose_bones` kept `world`, since the pose was not usable
+  std::vector<glm::mat4> next = {};  // scratch of `compose_bones`: the step's matrices until they are known to be sound
 };
+
+// No entry of a usable bone matrix is larger: muscles and skins hold their last shape beyond it.
+inline constexpr float kLargestMatrixEntry = 1.0e5f;
+
+// Whether no entry is NaN, infinite or beyond kLargestMatrixEntry.
+bool are_usable(std::span<const glm::mat4> matrices);
 
 // Bone to the space that `root` leads to: world[i] = world[parent] * local[i], a root's parent being `root`.
 // All three spans have the skeleton's size.

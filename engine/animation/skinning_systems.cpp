@@ -31,6 +31,7 @@ void skin_meshes(ecs::View<const SkinInstance, SkinnedSurface> skins, ecs::View<
       skins.visit(i, [&](const SkinInstance& instance, SkinnedSurface& surface) {
         const BoneMatrices* bones = characters.try_get<const BoneMatrices>(instance.character);
         if (instance.asset == nullptr || bones == nullptr || !fits(*instance.asset, *bones, surface)) return;
+        if (!are_usable(bones->world)) return;  // a host's own animation may have failed
         skin_one(*instance.asset, *bones, surface);
       });
     }

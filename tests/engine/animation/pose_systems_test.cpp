@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "engine/animation/gltf_skins.hpp"
 #include "engine/animation/skinning_systems.hpp"
@@ -127,6 +128,79 @@ TEST_F(PoseSystems, ASkinForMoreBonesKeepsItsSurface) {
   world_.add(skin, make_skinned_surface(*asset));
   schedule_.run(world_, arena_);
   EXPECT_EQ(world_.get<SkinnedSurface>(skin).positions[0], glm::vec3(0, 1, 0));
+}
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST_F(PoseSystems, ANanPlacementHoldsTheLastGoodBonesAndSkin) {
+  const ecs::Entity character = spawn(make_clip());
+  const auto asset = make_point();
+  world_.add(character, SkinInstance{asset, character});
+  world_.add(character, make_skinned_surface(*asset));
+  schedule_.run(world_, arena_);
+  const std::vector<glm::mat4> good = world_.get<BoneMatrices>(character).world;
+  const glm::vec3 skin = world_.get<SkinnedSurface>(character).positions[0];
+  for (const float wrong : {kNan, std::numeric_limits<float>::infinity(), 1e30f}) {
+    world_.get<Placement>(character).position.y = wrong;
+    world_.get<Placement>(character).teleport_count = 5;
+    schedule_.run(world_, arena_);
+    EXPECT_EQ(world_.get<BoneMatrices>(character).world, good);
+    EXPECT_EQ(world_.get<BoneMatrices>(character).teleport_count, 4u);  // the jump comes with the next good pose
+    EXPECT_EQ(world_.get<SkinnedSurface>(character).positions[0], skin);
+  }
+  EXPECT_EQ(world_.get<BoneMatrices>(character).held_steps, 3u);
+  world_.get<Placement>(character).position.y = 0.0f;
+  schedule_.run(world_, arena_);
+  EXPECT_EQ(world_.get<BoneMatrices>(character).world[1][3], glm::vec4(0.5f, 1.0f, 10.0f, 1.0f));
+  EXPECT_EQ(world_.get<BoneMatrices>(character).teleport_count, 5u);
+  EXPECT_EQ(world_.get<BoneMatrices>(character).held_steps, 3u);
+}
+
+TEST_F(PoseSystems, ANanInOneBonesPoseHoldsThemAllAndOthersGoOn) {
+  const ecs::Entity broken = spawn(nullptr);
+  const ecs::Entity sound = spawn(make_clip());
+  schedule_.run(world_, arena_);
+  const std::vector<glm::mat4> good = world_.get<BoneMatrices>(broken).world;
+  world_.get<LocalPose>(broken).bones[0].translation.x = 3.0f;
+  world_.get<LocalPose>(broken).bones[1].rotation.w = kNan;
+  schedule_.run(world_, arena_);
+  EXPECT_EQ(world_.get<BoneMatrices>(broken).world, good);
+  EXPECT_EQ(world_.get<BoneMatrices>(broken).held_steps, 1u);
+  EXPECT_EQ(world_.get<BoneMatrices>(sound).world[0][3].x, 1.0f);
+  EXPECT_EQ(world_.get<BoneMatrices>(sound).held_steps, 0u);
+}
+
+TEST_F(PoseSystems, ANanInTheFirstStepGivesTheRestPose) {
+  const ecs::Entity entity = spawn(nullptr);
+  world_.get<Placement>(entity).rotation.x = kNan;
+  schedule_.run(world_, arena_);
+  EXPECT_EQ(world_.get<BoneMatrices>(entity).world, make_skeleton()->rest_world);
+  EXPECT_EQ(world_.get<BoneMatrices>(entity).held_steps, 1u);
+}
+
+TEST_F(PoseSystems, SkinsHoldWhereAHostsBonesAreNotFinite) {
+  const ecs::Entity character = world_.create();  // without a pose: the host writes the matrices
+  const auto asset = make_point();
+  world_.add(character, BoneMatrices{make_skeleton()->rest_world, 0});
+  world_.add(character, SkinInstance{asset, character});
+  world_.add(character, make_skinned_surface(*asset));
+  world_.get<BoneMatrices>(character).world[1][3].x = 7.0f;
+  schedule_.run(world_, arena_);
+  world_.get<BoneMatrices>(character).world[1][0].x = kNan;
+  schedule_.run(world_, arena_);
+  EXPECT_EQ(world_.get<SkinnedSurface>(character).positions[0], glm::vec3(7, 1, 0));
+}
+
+TEST_F(PoseSystems, HeldStepsAllocateNothing) {
+  const ecs::Entity entity = spawn(make_clip());
+  const auto compose_all = [&] { compose_bones(world_.view<const LocalPose, const Placement, BoneMatrices>()); };
+  compose_all();
+  compose_all();
+  world_.get<Placement>(entity).position.x = kNan;
+  const test::AllocationScope scope;
+  for (int step = 0; step < 10; ++step) compose_all();
+  EXPECT_EQ(scope.allocations(), 0u);
+  EXPECT_EQ(world_.get<BoneMatrices>(entity).held_steps, 10u);
 }
 
 TEST_F(PoseSystems, SteadyFramesAllocateNothing) {
