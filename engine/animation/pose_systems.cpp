@@ -1,5 +1,6 @@
 #include "engine/animation/pose_systems.hpp"
 
+#include "engine/animation/clip_travel.hpp"
 #include "engine/parallel/for_range.hpp"
 
 namespace fascicle {
@@ -21,7 +22,12 @@ void sample_clips(ecs::View<const ClipPlayer, LocalPose> characters) {
   parallel::for_range(characters.candidates(), kCharactersPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       characters.visit(i, [](const ClipPlayer& player, LocalPose& pose) {
-        if (player.clip != nullptr) sample_clip(*player.clip, player.clip->start + player.time, pose.bones);
+        if (player.clip == nullptr) return;
+        const float time = player.clip->start + player.time;
+        sample_clip(*player.clip, time, pose.bones);
+        if (player.in_place && pose.skeleton != nullptr) {
+          hold_in_place(*player.clip, *pose.skeleton, time, pose.bones);
+        }
       });
     }
   });

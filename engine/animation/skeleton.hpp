@@ -40,7 +40,8 @@ struct Skeleton {
   std::int32_t find(std::string_view name) const;
 };
 
-// Where the character stands in the world; its size is a matter of content. `teleport_count` rises with every jump that must not be interpolated over.
+// Where the character stands in the world; its size is a matter of content. `teleport_count` rises with every jump that
+// must not be interpolated over.
 struct Placement {
   glm::vec3 position{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};

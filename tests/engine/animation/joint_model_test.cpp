@@ -67,10 +67,12 @@ const Broken kBroken[] = {
      "this is not a range; give two numbers, the smaller first"},
     {"NoRange", ", \"range\": [-3, 3]", "", "range"},
     {"ClampedDefaultAbove", "\"default\": 0.5", "\"default\": 2.6",
-     "model.json:5:35: /coordinates/1/default: the default 2.6 of a clamped coordinate lies outside its range, 0 to 2.5"},
+     "model.json:5:35: /coordinates/1/default: the default 2.6 of a clamped coordinate lies outside its range, 0 to "
+     "2.5"},
     {"ClampedDefaultBelow", "\"default\": 0.5", "\"default\": -0.1", "the default -0.1 of a clamped coordinate"},
     {"ClampedDefaultLeftOut", "\"default\": 0.5, \"range\": [0, 2.5]", "\"range\": [1, 2.5]",
-     "/coordinates/1/range: the default 0 of a clamped coordinate lies outside its range, 1 to 2.5; give a \"default\""},
+     "/coordinates/1/range: the default 0 of a clamped coordinate lies outside its range, 1 to 2.5; give a "
+     "\"default\""},
     {"AxisOfTwo", "\"axis\": [0, 0, 2]", "\"axis\": [0, 2]", "2 numbers; give three"},
     {"AxisOfNoLength", "\"axis\": [0, 0, 2]", "\"axis\": [0, 0, 0]",
      "model.json:10:5: /joints/0: an axis of the joint 'b' has no length"},
