@@ -8,15 +8,17 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "modules/muscle/asset/muscle_limits.hpp"
 #include "modules/muscle/kernels/mtu_kernels.hpp"
 
 namespace fascicle::muscle {
 namespace {
 
-constexpr float kFarthestAttachment = 1.0e4f;  // in the bone's units
 constexpr float kClosestAttachments = 1.0e-5f;  // m
-constexpr float kThickest = 10.0f;              // m, of a radius
-constexpr float kStrongest = 1.0e7f;            // N, N/m^2 and the like: nothing larger is meant
+// m, the ball around the cube of kPositionRange, and a hair for rounding on the way from space to space.
+constexpr float kFarthestAttachment = 1.7321f * static_cast<float>(kPositionRange.max);
+
+constexpr std::uint32_t kMostSubdivisions = static_cast<std::uint32_t>(kSubdivisionRange.max);
 
 bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -47,11 +49,19 @@ class Checker {
     return fmt::format("via/{}", i - 1);
   }
 
+  // In the rest space.
+  glm::vec3 place(const AttachmentDescription& attachment) const {
+    return glm::vec3(bones_[static_cast<std::size_t>(attachment.bone)] * glm::vec4(attachment.position, 1.0f));
+  }
+
   void check_attachments() {
     const auto& attachments = description_.attachments;
     if (attachments.size() < 2) {
       fault("origin", fmt::format("{} attachments", attachments.size()), "a muscle needs an origin and an insertion");
       return;
+    }
+    if (attachments.size() > kMostViaPoints + 2) {
+      fault("via", fmt::format("{} via points", attachments.size() - 2), fmt::format("at most {}", kMostViaPoints));
     }
     bool placed = true;
     for (std::size_t i = 0; i < attachments.size(); ++i) {
@@ -60,22 +70,23 @@ class Checker {
         fault(attachment_field(i) + "/bone", fmt::format("bone {} does not exist", attachment.bone),
               fmt::format("the skeleton has bones 0 to {}", static_cast<long>(bones_.size()) - 1));
         placed = false;
+        continue;
       }
       if (!is_finite(attachment.position)) {
         fault(attachment_field(i) + "/position", "the position is not finite", "give three numbers in metres");
         placed = false;
-      } else if (glm::length(attachment.position) > kFarthestAttachment) {
+      } else if (!(glm::length(attachment.position) <= kFarthestAttachment ||
+                   glm::length(place(attachment)) <= kFarthestAttachment)) {
+        // A file gives positions in either space, and bones may be scaled: one of the two must be sane.
         fault(attachment_field(i) + "/position",
               fmt::format("the position is {:.4g} m from its bone", glm::length(attachment.position)),
-              "positions are in metres, in the bone's frame");
+              fmt::format("positions are in metres, in the bone's frame, each of the three from {:g} to {:g}",
+                          kPositionRange.min, kPositionRange.max));
         placed = false;
       }
     }
     if (!placed) return;
     for (std::size_t i = 1; i < attachments.size(); ++i) {
-      const auto place = [&](const AttachmentDescription& a) {
-        return glm::vec3(bones_[static_cast<std::size_t>(a.bone)] * glm::vec4(a.position, 1.0f));
-      };
       const float distance = glm::distance(place(attachments[i - 1]), place(attachments[i]));
       if (!(distance > kClosestAttachments)) {
         fault(attachment_field(i) + "/position",
@@ -88,9 +99,10 @@ class Checker {
 
   void check_level() {
     const std::uint32_t count = description_.section_vertices;
-    if (count < 6 || count > kMaxSectionVertices || count % 2 != 0) {
+    if (!lies_in(count, kSectionVerticesRange) || count % 2 != 0) {
       fault("section_vertices", fmt::format("|C| is {}", count),
-            fmt::format("an even number from 6 to {}, so that every vertex has an opposite", kMaxSectionVertices));
+            fmt::format("an even number from {:g} to {:g}, so that every vertex has an opposite",
+                        kSectionVerticesRange.min, kSectionVerticesRange.max));
     }
     if (description_.longitudinal_subdivision > kMostSubdivisions) {
       fault("longitudinal_subdivision", fmt::format("it is {}", description_.longitudinal_subdivision),
@@ -98,26 +110,36 @@ class Checker {
     }
   }
 
-  // A number that must be finite and lie in [0, largest].
-  void check_number(const std::string& field, float value, float largest, const char* unit) {
-    if (std::isfinite(value) && value >= 0.0f && value <= largest) return;
-    fault(field, fmt::format("it is {}", value), fmt::format("a number from 0 to {:g} {}", largest, unit));
+  void check_number(const std::string& field, double value, const NumberRange& range, const char* unit) {
+    if (lies_in(value, range)) return;
+    fault(field, fmt::format("it is {:g}", value),
+          fmt::format("a number {} {:g} {} {:g} {}", range.above_min ? "above" : "from", range.min,
+                      range.above_min ? "and at most" : "to", range.max, unit));
+  }
+  // As check_number, with 0 for what is not known.
+  void check_figure(const std::string& field, double value, const NumberRange& range, const char* unit) {
+    if (value != 0.0) check_number(field, value, range, unit);
   }
 
   void check_hill() {
-    check_number("max_isometric_force", description_.hill.max_isometric_force, kStrongest, "N");
-    check_number("optimal_fibre_length", description_.hill.optimal_fibre_length, 10.0f, "m");
-    check_number("tendon_slack_length", description_.hill.tendon_slack_length, 10.0f, "m");
-    check_number("pennation", description_.hill.pennation, 1.5f, "rad");
-    check_number("source_length", description_.source_length, 10.0f, "m");
-    check_number("specific_tension", description_.specific_tension, kStrongest, "N/m^2");
+    const HillParameters& hill = description_.hill;
+    check_number("max_isometric_force", hill.max_isometric_force, kForceRange, "N");
+    check_figure("optimal_fibre_length", hill.optimal_fibre_length, kFibreLengthRange, "m");
+    check_number("tendon_slack_length", hill.tendon_slack_length, kTendonLengthRange, "m");
+    if (!(hill.pennation >= 0.0f && hill.pennation < kRightAngle)) {
+      fault("pennation", fmt::format("it is {:g}", hill.pennation), "radians, at least 0 and less than pi/2 = 1.5708");
+    }
+    check_figure("source_length", description_.source_length, kSourceLengthRange, "m");
+    check_figure("specific_tension", description_.specific_tension, kSpecificTensionRange, "N/m^2");
+    if (description_.pcsa) check_number("pcsa", *description_.pcsa, kPcsaRange, "m^2");
+    if (description_.volume) check_number("volume", *description_.volume, kVolumeRange, "m^3");
   }
 
   void check_tendon() {
-    check_number("tendon/origin", description_.tendon_at_origin, 1.0f, "(a fraction)");
-    check_number("tendon/insertion", description_.tendon_at_insertion, 1.0f, "(a fraction)");
+    check_number("tendon/origin", description_.tendon_at_origin, kFractionRange, "(a fraction)");
+    check_number("tendon/insertion", description_.tendon_at_insertion, kFractionRange, "(a fraction)");
     const float sum = description_.tendon_at_origin + description_.tendon_at_insertion;
-    if (sum > 1.0f + 1.0e-6f) {
+    if (sum > 1.0f) {
       fault("tendon", fmt::format("the fractions sum to {}", sum), "origin and insertion together at most 1");
     }
   }
@@ -129,43 +151,29 @@ class Checker {
             "as many of one as of the other");
       return;
     }
+    const std::size_t points = profile.fractions.size();
+    if (points != 0 && (points < kFewestProfilePoints || points > kMostProfilePoints)) {
+      fault("profile/fractions", fmt::format("{} points", points),
+            fmt::format("from {} to {}, or none", kFewestProfilePoints, kMostProfilePoints));
+    }
     float largest = profile.radii.empty() ? 1.0f : 0.0f;
     for (std::size_t i = 0; i < profile.fractions.size(); ++i) {
       const float fraction = profile.fractions[i];
-      if (!std::isfinite(fraction) || fraction < 0.0f || fraction > 1.0f ||
-          (i > 0 && fraction <= profile.fractions[i - 1])) {
+      if (!lies_in(fraction, kFractionRange) || (i > 0 && fraction <= profile.fractions[i - 1])) {
         fault(fmt::format("profile/fractions/{}", i), fmt::format("it is {}", fraction),
               "fractions rise from 0 (origin) to 1 (insertion)");
       }
-      check_number(fmt::format("profile/radii/{}", i), profile.radii[i], profile.absolute ? kThickest : 1.0e6f,
-                   profile.absolute ? "m" : "(relative)");
+      check_number(fmt::format("profile/radii/{}", i), profile.radii[i],
+                   profile.absolute ? kRadiusRange : kRelativeRadiusRange, profile.absolute ? "m" : "(relative)");
       largest = std::max(largest, profile.radii[i]);
     }
     if (!(largest > 0.0f)) fault("profile/radii", "all are zero", "at least one above zero");
   }
 
   void check_radius_source(const MuscleFit* fit) {
-    const HillParameters& hill = description_.hill;
-    const auto check_positive = [&](const char* field, float value, const char* unit) {
-      if (!std::isfinite(value) || value <= 0.0f) {
-        fault(field, fmt::format("it is {}", value), fmt::format("a number above 0 {}, or leave it out", unit));
-      }
-    };
-    if (description_.pcsa) check_positive("pcsa", *description_.pcsa, "m^2");
-    if (description_.volume) check_positive("volume", *description_.volume, "m^3");
     if (fit != nullptr && !fit->radii.empty()) return;
-    if (description_.pcsa) {
-      if (!(hill.optimal_fibre_length > 0.0f)) {
-        fault("pcsa", "a PCSA without a fibre length does not say how thick the muscle is",
-              "give optimal_fibre_length too, or give volume instead");
-      }
-      return;
-    }
-    if (description_.volume || (description_.profile.absolute && !description_.profile.radii.empty())) return;
-    if (!(hill.max_isometric_force > 0.0f && hill.optimal_fibre_length > 0.0f)) {
-      fault("", "nothing says how thick the muscle is",
-            "give volume, pcsa, an absolute profile, or max_isometric_force and optimal_fibre_length");
-    }
+    const std::optional<MissingThickness> missing = find_missing_thickness(description_);
+    if (missing) fault("", missing->cause, missing->remedy);
   }
 
   void check_fit(const MuscleFit& fit) {
@@ -187,7 +195,7 @@ class Checker {
       }
     }
     for (const float radius : fit.radii) {
-      if (!(std::abs(radius) <= kThickest)) {
+      if (!(std::abs(radius) <= static_cast<float>(kRadiusRange.max))) {
         fault("", fmt::format("its fit has a radius of {} m", radius), "fit it again");
         break;
       }
@@ -234,10 +242,40 @@ Diagnostic fault_of(const MuscleDescription& description, const std::string& fie
   return fault;
 }
 
-Diagnostics check_descriptions(std::span<const MuscleDescription> descriptions, std::span<const glm::mat4> rest_bones,
-                               std::span<const MuscleFit> fits) {
+std::optional<MissingThickness> find_missing_thickness(const MuscleDescription& description) {
+  // In the order in which they are used: see MuscleDescription.
+  if (!description.pcsa) {
+    if (description.volume || (description.profile.absolute && !description.profile.radii.empty())) return std::nullopt;
+    if (description.hill.max_isometric_force == 0.0f) {
+      return MissingThickness{"nothing says how thick the muscle is",
+                              "give max_isometric_force (N), pcsa (m^2), volume (m^3) or a profile with absolute radii "
+                              "(m)"};
+    }
+  }
+  if (description.hill.optimal_fibre_length != 0.0f) return std::nullopt;
+  return MissingThickness{"the belly's volume follows from its cross section and its fibre length, which is missing",
+                          "give optimal_fibre_length (m), or volume (m^3) without pcsa"};
+}
+
+Diagnostics check_rest_bones(std::span<const glm::mat4> rest_bones) {
   Diagnostics found;
   for (std::size_t i = 0; i < rest_bones.size(); ++i) check_bone(i, rest_bones[i], found);
+  return found;
+}
+
+Diagnostics check_description(const MuscleDescription& description, std::span<const glm::mat4> rest_bones,
+                              const MuscleFit* fit) {
+  Diagnostics found;
+  if (description.name.empty()) {
+    found.errors.push_back(fault_of(description, "name", "a muscle has no name", "give it one"));
+  }
+  Checker(description, rest_bones, found).check(fit);
+  return found;
+}
+
+Diagnostics check_descriptions(std::span<const MuscleDescription> descriptions, std::span<const glm::mat4> rest_bones,
+                               std::span<const MuscleFit> fits) {
+  Diagnostics found = check_rest_bones(rest_bones);
   if (!found.ok()) return found;
   if (!fits.empty() && fits.size() != descriptions.size()) {
     found.errors.push_back(make_fault("fits", fmt::format("{} fits for {} muscles", fits.size(), descriptions.size()),
@@ -247,13 +285,11 @@ Diagnostics check_descriptions(std::span<const MuscleDescription> descriptions, 
   std::set<std::string> names;
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     const MuscleDescription& description = descriptions[i];
-    if (description.name.empty()) {
-      found.errors.push_back(fault_of(description, "name", "a muscle has no name", "give it one"));
-    } else if (!names.insert(description.name).second) {
+    if (!description.name.empty() && !names.insert(description.name).second) {
       found.errors.push_back(fault_of(description, "name", fmt::format("'{}' occurs twice", description.name),
                                       "give each muscle a name of its own"));
     }
-    Checker(description, rest_bones, found).check(fits.empty() ? nullptr : &fits[i]);
+    found.append(check_description(description, rest_bones, fits.empty() ? nullptr : &fits[i]));
   }
   return found;
 }

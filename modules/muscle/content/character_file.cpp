@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "modules/muscle/asset/muscle_limits.hpp"
+
 namespace fascicle::muscle {
 
 namespace {
@@ -121,7 +123,7 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
     read_level(level, file.section_vertices, file.longitudinal_subdivision);
     finish_object(level, "level", context);
   }
-  object.optional("specific_tension", file.specific_tension, between(1e4, 1e7));
+  object.optional("specific_tension", file.specific_tension, kSpecificTensionRange);
   file.muscles_from = read_name(object, "muscles_from", false);
   for (const JsonNode node : object.optional_array("muscles", 0, 100000)) {
     file.muscles.push_back(read_muscle_entry(node, context));

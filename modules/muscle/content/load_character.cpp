@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +9,7 @@
 #include "engine/animation/joint_model_reader.hpp"
 #include "engine/content/gltf_reader.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
+#include "modules/muscle/asset/check_descriptions.hpp"
 #include "modules/muscle/content/character_asset.hpp"
 #include "modules/muscle/content/character_file.hpp"
 #include "modules/muscle/content/content_sources.hpp"
@@ -101,13 +104,45 @@ void load_skeleton(const CharacterFile& file, const fs::path& base, ContentSourc
   }
 }
 
+// Appends the builder's faults, but for those at places where another muscle has brought one already: a muscle and its
+// mirror image are one entry of the file, and fail alike but for a rounded figure in the text.
+class FaultReport {
+ public:
+  explicit FaultReport(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  // The faults of one muscle.
+  void add(Diagnostics found) {
+    std::erase_if(found.errors, [&](const Diagnostic& fault) { return known_.contains(place_of(fault)); });
+    for (const Diagnostic& fault : found.errors) known_.insert(place_of(fault));
+    diagnostics_.append(std::move(found));
+  }
+
+ private:
+  using Place = std::tuple<std::string, int, int, std::string>;
+  static Place place_of(const Diagnostic& fault) { return {fault.file, fault.line, fault.column, fault.path}; }
+
+  Diagnostics& diagnostics_;
+  std::set<Place> known_;
+};
+
+// The muscles that could be resolved are checked, and those without a fault built, even where the file has errors
+// elsewhere: an author sees what is wrong with all of them at once.
 void build_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& asset, Diagnostics& diagnostics) {
   for (const ResolvedMuscle& muscle : resolved) asset.descriptions.push_back(muscle.description);
-  if (asset.descriptions.empty() || !diagnostics.ok()) return;
-  Result<std::shared_ptr<const MuscleAsset>> built =
-      build_muscle_asset(asset.descriptions, asset.skeleton->rest_world);
-  if (built) asset.muscles = *built;
-  diagnostics.append(std::move(built.diagnostics()));
+  if (asset.descriptions.empty()) return;
+  const std::span<const glm::mat4> bones = asset.skeleton->rest_world;
+  if (Diagnostics found = check_rest_bones(bones); !found.ok()) return diagnostics.append(std::move(found));
+  FaultReport report(diagnostics);
+  std::vector<MuscleDescription> sound;
+  for (const MuscleDescription& description : asset.descriptions) {
+    Diagnostics found = check_description(description, bones);
+    if (found.ok()) sound.push_back(description);
+    report.add(std::move(found));
+  }
+  Result<std::shared_ptr<const MuscleAsset>> built = build_muscle_asset(sound, bones);
+  for (const Diagnostic& fault : built.diagnostics().errors) report.add({.errors = {fault}, .warnings = {}});
+  diagnostics.append({.errors = {}, .warnings = std::move(built.diagnostics().warnings)});
+  if (diagnostics.ok()) asset.muscles = *built;
 }
 
 }  // namespace
@@ -140,6 +175,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
     load_muscle_meshes(chain.files()[i]->content, chain.path(i).parent_path(), resolved, sources, *asset, diagnostics);
   }
   if (asset->skeleton) build_muscles(resolved, *asset, diagnostics);
+  drop_repetitions(diagnostics);
   asset->files = sources.files();
   if (!diagnostics.ok()) return diagnostics;
   return Result<std::shared_ptr<const CharacterAsset>>(std::move(asset), std::move(diagnostics));

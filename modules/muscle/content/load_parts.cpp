@@ -1,5 +1,7 @@
 #include "modules/muscle/content/load_parts.hpp"
 
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,7 +54,19 @@ std::shared_ptr<const TriangleMesh> reflect(const TriangleMesh& mesh, int axis) 
   return reflected;
 }
 
+void drop_from(std::vector<Diagnostic>& list) {
+  std::set<std::tuple<std::string, int, int, std::string, std::string>> known;
+  std::erase_if(list, [&](const Diagnostic& one) {
+    return !known.emplace(one.file, one.line, one.column, one.path, one.cause).second;
+  });
+}
+
 }  // namespace
+
+void drop_repetitions(Diagnostics& diagnostics) {
+  drop_from(diagnostics.errors);
+  drop_from(diagnostics.warnings);
+}
 
 void load_skins(const CharacterFile& file, const fs::path& base, ContentSources& sources, CharacterAsset& asset,
                 Diagnostics& diagnostics) {

@@ -15,6 +15,9 @@ namespace fascicle::muscle {
 Result<std::shared_ptr<const CharacterAsset>> load_character(const std::filesystem::path& file,
                                                              const LoadOptions& options, ContentSources& sources);
 
+// Keeps the first of errors, and of warnings, that say the same of the same place.
+void drop_repetitions(Diagnostics& diagnostics);
+
 // `base` is the folder of `file`. Bones of a skin in another glTF file than the skeleton's are found by name.
 void load_skins(const CharacterFile& file, const std::filesystem::path& base, ContentSources& sources,
                 CharacterAsset& asset, Diagnostics& diagnostics);

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <system_error>
-#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -83,14 +81,6 @@ void choose_motion(const SceneCharacterEntry& entry, const fs::path& base, Conte
   diagnostics.append(std::move(motion.diagnostics()));
 }
 
-// Characters that share a broken file report it each; once is enough.
-void drop_repetitions(std::vector<Diagnostic>& list) {
-  std::set<std::tuple<std::string, int, int, std::string, std::string>> known;
-  std::erase_if(list, [&](const Diagnostic& one) {
-    return !known.emplace(one.file, one.line, one.column, one.path, one.cause).second;
-  });
-}
-
 // False, with one error that says what to do, where the scene needs the data folder and it is not there.
 bool has_its_data(const SceneFile& scene, const ContentSources& sources, Diagnostics& diagnostics) {
   if (!scene.values.requires_data) return true;
@@ -124,8 +114,7 @@ Result<std::shared_ptr<const SceneAsset>> load_scene_with(const fs::path& file, 
     if (entry.motion.given()) choose_motion(entry, base, sources, placed, diagnostics);
     asset->characters.push_back(std::move(placed));
   }
-  drop_repetitions(diagnostics.errors);
-  drop_repetitions(diagnostics.warnings);
+  drop_repetitions(diagnostics);  // characters that share a broken file report it each
   asset->files = sources.files();
   asset->load_started = started;
   if (!diagnostics.ok()) return diagnostics;

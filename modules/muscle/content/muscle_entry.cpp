@@ -1,20 +1,17 @@
-// One muscle of a character file. Ranges are those of anything that walks on earth, from a mouse to an elephant,
-// in SI units: a figure outside them is a slip of unit.
+// One muscle of a character file. Ranges: modules/muscle/asset/muscle_limits.hpp.
 
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "modules/muscle/asset/check_descriptions.hpp"
+#include "modules/muscle/asset/muscle_limits.hpp"
 #include "modules/muscle/content/character_file.hpp"
 
 namespace fascicle::muscle {
 
 namespace {
-
-constexpr double kMaxPosition = 100.0;  // m from the bone or the character's origin
-constexpr double kMaxLength = 100.0;    // m
-constexpr double kMaxForce = 1e7;       // N
 
 AttachmentEntry read_attachment(const JsonNode& node, bool is_via, const ReadContext& context) {
   AttachmentEntry entry;
@@ -24,7 +21,7 @@ AttachmentEntry read_attachment(const JsonNode& node, bool is_via, const ReadCon
   glm::vec3 position(0.0f);
   entry.position_node = object.require("position");
   if (entry.position_node.exists() &&
-      entry.position_node.read(position, context.diagnostics, between(-kMaxPosition, kMaxPosition))) {
+      entry.position_node.read(position, context.diagnostics, kPositionRange)) {
     entry.position = position;
   }
   if (is_via) object.optional("counts", entry.counts);
@@ -56,20 +53,21 @@ void check_profile(const RadiusProfile& profile, const JsonNode& fractions, cons
 
 void read_profile(const JsonNode& node, RadiusProfile& profile, const ReadContext& context) {
   JsonObject object(node, context.diagnostics);
-  const JsonNode fractions = object.require_array("fractions", 2, 64);
-  const JsonNode radii = object.require_array("radii", 2, 64);
+  const JsonNode fractions = object.require_array("fractions", kFewestProfilePoints, kMostProfilePoints);
+  const JsonNode radii = object.require_array("radii", kFewestProfilePoints, kMostProfilePoints);
   object.optional("absolute", profile.absolute);
-  if (fractions.exists()) fractions.read(profile.fractions, context.diagnostics, between(0, 1));
+  if (fractions.exists()) fractions.read(profile.fractions, context.diagnostics, kFractionRange);
   // Relative radii are weights; absolute ones metres.
-  if (radii.exists()) radii.read(profile.radii, context.diagnostics, between(0, profile.absolute ? 10 : 1e6));
+  const NumberRange& range = profile.absolute ? kRadiusRange : kRelativeRadiusRange;
+  if (radii.exists()) radii.read(profile.radii, context.diagnostics, range);
   if (fractions.exists() && radii.exists()) check_profile(profile, fractions, radii, context.diagnostics);
   finish_object(object, "profile", context);
 }
 
 void read_tendon(const JsonNode& node, MuscleDescription& values, const ReadContext& context) {
   JsonObject object(node, context.diagnostics);
-  const bool origin = object.optional("origin", values.tendon_at_origin, between(0, 1));
-  const bool insertion = object.optional("insertion", values.tendon_at_insertion, between(0, 1));
+  const bool origin = object.optional("origin", values.tendon_at_origin, kFractionRange);
+  const bool insertion = object.optional("insertion", values.tendon_at_insertion, kFractionRange);
   finish_object(object, "tendon", context);
   const float sum = values.tendon_at_origin + values.tendon_at_insertion;
   if ((origin || insertion) && sum > 1.0f) {
@@ -83,7 +81,7 @@ void read_pennation(JsonObject& object, float& pennation) {
   const JsonNode node = object.optional("pennation");
   double value = 0.0;
   if (!node.exists() || !node.read(value, object.diagnostics(), at_least(0))) return;
-  if (value >= std::numbers::pi / 2) {
+  if (static_cast<float>(value) >= kRightAngle) {
     std::string remedy = "give radians, at least 0 and less than pi/2 = 1.5708";
     if (value > std::numbers::pi && value < 90.0) {
       remedy += fmt::format("; {} degrees are {:.4g} rad", value, value * std::numbers::pi / 180.0);
@@ -93,19 +91,6 @@ void read_pennation(JsonObject& object, float& pennation) {
     return;
   }
   pennation = static_cast<float>(value);
-}
-
-// Rest radii come from pcsa, volume, an absolute profile, or the force; volumes of the first and last need the fibre
-// length as well.
-void check_thickness(const MuscleDescription& values, const JsonNode& node, Diagnostics& diagnostics) {
-  if (values.volume || values.profile.absolute) return;
-  if (!values.pcsa && values.hill.max_isometric_force <= 0.0f) {
-    node.error(diagnostics, "nothing says how thick the muscle is",
-               "give max_isometric_force (N), pcsa (m^2), volume (m^3) or a profile with absolute radii (m)");
-  } else if (values.hill.optimal_fibre_length <= 0.0f) {
-    node.error(diagnostics, "the belly's volume follows from its cross section and its fibre length, which is missing",
-               "give optimal_fibre_length (m)");
-  }
 }
 
 }  // namespace
@@ -126,7 +111,7 @@ void read_level(JsonObject& object, std::optional<std::uint32_t>& section_vertic
                 std::optional<std::uint32_t>& longitudinal_subdivision) {
   const JsonNode node = object.optional("section_vertices");
   std::uint32_t count = 0;
-  if (node.exists() && node.read(count, object.diagnostics(), between(6, 256))) {
+  if (node.exists() && node.read(count, object.diagnostics(), kSectionVerticesRange)) {
     if (count % 2 != 0) {
       node.error(object.diagnostics(), fmt::format("{} vertices a section is odd: opposites would not exist", count),
                  fmt::format("give an even number, {} or {}", count - 1, count + 1));
@@ -135,7 +120,9 @@ void read_level(JsonObject& object, std::optional<std::uint32_t>& section_vertic
     }
   }
   std::uint32_t subdivision = 0;
-  if (object.optional("longitudinal_subdivision", subdivision, between(0, 6))) longitudinal_subdivision = subdivision;
+  if (object.optional("longitudinal_subdivision", subdivision, kSubdivisionRange)) {
+    longitudinal_subdivision = subdivision;
+  }
 }
 
 MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context) {
@@ -150,23 +137,32 @@ MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context) 
   if (const JsonNode origin = object.require("origin"); origin.exists()) {
     entry.attachments.push_back(read_attachment(origin, false, context));
   }
-  for (const JsonNode via : object.optional_array("via", 0, 256)) {
+  for (const JsonNode via : object.optional_array("via", 0, kMostViaPoints)) {
     entry.attachments.push_back(read_attachment(via, true, context));
   }
   if (const JsonNode insertion = object.require("insertion"); insertion.exists()) {
     entry.attachments.push_back(read_attachment(insertion, false, context));
   }
-  object.optional("max_isometric_force", values.hill.max_isometric_force, between(0, kMaxForce));
-  object.optional("optimal_fibre_length", values.hill.optimal_fibre_length,
-                  NumberRange{.min = 0, .max = kMaxLength, .above_min = true});
-  object.optional("tendon_slack_length", values.hill.tendon_slack_length, between(0, kMaxLength));
+  // A wrong figure has its own error, as has a misspelled field; that the thickness then misses it needs none.
+  bool thickness_known = true;
+  const auto count_errors = [&] { return context.diagnostics.errors.size(); };
+  const auto read_thickness = [&](std::string_view field, auto& value, const NumberRange& range) {
+    const std::size_t before = count_errors();
+    object.optional(field, value, range);
+    thickness_known = thickness_known && count_errors() == before;
+  };
+  read_thickness("max_isometric_force", values.hill.max_isometric_force, kForceRange);
+  read_thickness("optimal_fibre_length", values.hill.optimal_fibre_length, kFibreLengthRange);
+  object.optional("tendon_slack_length", values.hill.tendon_slack_length, kTendonLengthRange);
   read_pennation(object, values.hill.pennation);
-  object.optional("source_length", values.source_length, NumberRange{.min = 0, .max = kMaxLength, .above_min = true});
-  object.optional("specific_tension", values.specific_tension, between(1e4, 1e7));
-  object.optional("pcsa", values.pcsa, NumberRange{.min = 0, .max = 100, .above_min = true});
-  object.optional("volume", values.volume, NumberRange{.min = 0, .max = 100, .above_min = true});
+  object.optional("source_length", values.source_length, kSourceLengthRange);
+  object.optional("specific_tension", values.specific_tension, kSpecificTensionRange);
+  read_thickness("pcsa", values.pcsa, kPcsaRange);
+  read_thickness("volume", values.volume, kVolumeRange);
   if (const JsonNode profile = object.optional("profile"); profile.exists()) {
+    const std::size_t before = count_errors();
     read_profile(profile, values.profile, context);
+    thickness_known = thickness_known && count_errors() == before;
   }
   if (const JsonNode tendon = object.optional("tendon"); tendon.exists()) read_tendon(tendon, values, context);
   read_level(object, entry.section_vertices, entry.longitudinal_subdivision);
@@ -174,9 +170,12 @@ MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context) 
   if (const JsonNode groups = object.optional("groups"); groups.exists()) {
     groups.read(values.groups, context.diagnostics);
   }
+  const std::size_t before_finish = count_errors();
   finish_object(object, "muscle", context);
-  // A wrong figure has its own error; what follows from it would only repeat it.
-  if (context.diagnostics.errors.size() == errors_before) check_thickness(values, node, context.diagnostics);
+  if (thickness_known && object.valid() && count_errors() == before_finish) {
+    const std::optional<MissingThickness> missing = find_missing_thickness(values);
+    if (missing) node.error(context.diagnostics, missing->cause, missing->remedy);
+  }
   entry.sound = context.diagnostics.errors.size() == errors_before;
   return entry;
 }

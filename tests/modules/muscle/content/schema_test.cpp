@@ -124,7 +124,7 @@ void expect_documented(const JsonDocument& schema, const std::string& root_kind)
       }
       EXPECT_FALSE(description.empty() && reference != "#/definitions/pairs") << name << " has no description";
       target.member("type").read(type, ignored);
-      if (type == "number" || reference == "#/definitions/vector") {
+      if (type == "number" || reference == "#/definitions/vector" || reference == "#/definitions/position") {
         EXPECT_THAT(description, HasSubstr("(")) << name << " has no unit";
       }
     }
