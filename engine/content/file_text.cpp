@@ -1,13 +1,16 @@
 #include "engine/content/file_text.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <system_error>
 
 namespace fascicle {
@@ -17,14 +20,53 @@ Diagnostic file_error(const std::filesystem::path& file, std::string cause, std:
   return {.file = file.string(), .path = {}, .cause = std::move(cause), .remedy = std::move(remedy)};
 }
 
-bool write_all(int descriptor, std::string_view text) {
+// 0, or why not all was written (an errno).
+int write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
+    if (written < 0) return errno;
+    if (written == 0) return ENOSPC;  // a device that takes no more
     text.remove_prefix(static_cast<std::size_t>(written));
   }
-  return true;
+  return 0;
+}
+
+// Standard output or error where it goes to `target` (as with /dev/stdout), else -1. A second opening of the same file
+// would have a position of its own, and a file put in its place would get nothing of what is printed later.
+int standard_stream_to(const struct stat& target) {
+  for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat stream {};
+    if (::fstat(descriptor, &stream) == 0 && stream.st_dev == target.st_dev && stream.st_ino == target.st_ino) {
+      return descriptor;
+    }
+  }
+  return -1;
+}
+
+// Into a device, a pipe, or a stream that is open already. 0, or an errno.
+int write_directly(const std::filesystem::path& file, int open_already, std::string_view text) {
+  if (open_already >= 0) {
+    std::fflush(open_already == STDOUT_FILENO ? stdout : stderr);  // what was printed before comes first
+    return write_all(open_already, text);
+  }
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  const int code = write_all(descriptor, text);
+  return ::close(descriptor) != 0 && code == 0 ? errno : code;
+}
+
+// The path that symbolic links at `file` lead to, whether or not there is a file; nothing where they go in a circle.
+std::optional<std::filesystem::path> follow_links(std::filesystem::path file) {
+  constexpr int kMaxLinks = 40;  // as the kernel
+  std::error_code error;
+  for (int i = 0; i < kMaxLinks; ++i) {
+    if (!std::filesystem::is_symlink(std::filesystem::symlink_status(file, error))) return file;
+    const std::filesystem::path next = std::filesystem::read_symlink(file, error);
+    if (error) return file;
+    file = file.parent_path() / next;  // an absolute `next` replaces the folder
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -57,20 +99,38 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::uintm
 
 Diagnostics write_text_atomically(const std::filesystem::path& file, std::string_view text) {
   Diagnostics result;
-  const auto fail = [&](std::string_view what) {
-    result.errors.push_back(file_error(file, fmt::format("cannot be written: {}: {}", what, std::strerror(errno)),
+  const auto fail = [&](std::string_view what, int code) {
+    result.errors.push_back(file_error(file, fmt::format("cannot be written: {}: {}", what, std::strerror(code)),
                                        "check that the folder may be written and the disk has room"));
     return result;
   };
-  std::error_code code;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), code);
-  std::string temporary = file.string() + ".XXXXXX";
+  struct stat target {};
+  const bool exists = ::stat(file.c_str(), &target) == 0;
+  if (exists && !S_ISDIR(target.st_mode)) {
+    const int open_already = standard_stream_to(target);
+    if (open_already >= 0 || !S_ISREG(target.st_mode)) {
+      const int code = write_directly(file, open_already, text);
+      return code == 0 ? result : fail("writing failed", code);
+    }
+  }
+  const std::optional<std::filesystem::path> resolved = follow_links(file);
+  if (!resolved) return fail("its symbolic links have no end", ELOOP);
+  std::error_code ignored;
+  if (resolved->has_parent_path()) std::filesystem::create_directories(resolved->parent_path(), ignored);
+  std::string temporary = resolved->string() + ".XXXXXX";
   const int descriptor = ::mkstemp(temporary.data());
-  if (descriptor < 0) return fail("no new file beside it");
-  bool ok = write_all(descriptor, text) && ::fchmod(descriptor, 0644) == 0;
-  ok = ::close(descriptor) == 0 && ok;
-  if (ok && ::rename(temporary.c_str(), file.c_str()) == 0) return result;
-  fail(ok ? "the new file cannot take its place" : "writing failed");
+  if (descriptor < 0) return fail("no new file beside it", errno);
+  const mode_t mode = exists && S_ISREG(target.st_mode) ? target.st_mode & 0777 : 0644;
+  int code = write_all(descriptor, text);
+  if (code == 0 && ::fchmod(descriptor, mode) != 0) code = errno;
+  if (::close(descriptor) != 0 && code == 0) code = errno;
+  if (code != 0) {
+    fail("writing failed", code);
+  } else if (::rename(temporary.c_str(), resolved->c_str()) != 0) {
+    fail("the new file cannot take its place", errno);
+  } else {
+    return result;
+  }
   ::unlink(temporary.c_str());
   return result;
 }

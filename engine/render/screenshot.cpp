@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
-#include <system_error>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <stb/stb_image_write.h>
-#include <unistd.h>
+
+#include "engine/content/file_text.hpp"
 
 namespace fascicle {
 namespace {
@@ -37,24 +38,10 @@ Result<std::size_t> write_png(const Image& image, const std::filesystem::path& f
                              3 * image.width) == 0) {
     return picture_error(file, "the picture could not be compressed", "free some memory");
   }
-  std::error_code error;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
-  std::filesystem::path part = file;
-  part += fmt::format(".{}.part", ::getpid());
-  std::FILE* stream = std::fopen(part.c_str(), "wb");
-  if (stream == nullptr) {
-    return picture_error(file, fmt::format("cannot be written: {}", std::generic_category().message(errno)),
-                         "name a file in a folder that you may write to");
-  }
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-  const bool closed = std::fclose(stream) == 0;
-  if (written && closed) {
-    std::filesystem::rename(part, file, error);
-    if (!error) return bytes.size();
-  }
-  const std::string cause = error ? error.message() : std::string("the disk is full or went away");
-  std::filesystem::remove(part, error);
-  return picture_error(file, fmt::format("cannot be written: {}", cause), "free some space, or name another file");
+  Diagnostics written = write_text_atomically(
+      file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  if (!written.ok()) return written;
+  return bytes.size();
 }
 
 Image contact_sheet(const std::vector<Image>& images, int columns, int gap) {

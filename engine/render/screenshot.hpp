@@ -1,4 +1,4 @@
-// Pictures as files. A picture is written whole or not at all: to a neighbouring temporary file, then renamed.
+// Pictures as files. A picture is written whole or not at all (see write_text_atomically).
 #pragma once
 
 #include <cstdint>

@@ -55,6 +55,15 @@ TEST(WritePng, RefusesToReplaceAFolderAndLeavesNothingBehind) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 
+TEST(WritePng, WritesTheTargetOfALink) {
+  const fs::path folder = fresh_folder("link");
+  fs::create_directories(folder);
+  fs::create_symlink("target.png", folder / "a.png");
+  EXPECT_TRUE(write_png(make_gradient(4, 4), folder / "a.png").ok());
+  EXPECT_TRUE(fs::is_symlink(folder / "a.png"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "target.png"));
+}
+
 TEST(WritePng, RoundTripIsExactAndReplacesAtomically) {
   const fs::path folder = fresh_folder("round_trip");
   const fs::path file = folder / "deep" / "a.png";
