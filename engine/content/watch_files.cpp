@@ -16,16 +16,23 @@ namespace {
 // leaves the stamp as it was. So a stamp counts only when it was this old when it was read.
 constexpr std::int64_t kTrustedAgeNs = 2'500'000'000;
 
+std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec; }
+
 std::int64_t wall_clock_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);  // the clock of the stamps
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  return nanoseconds(now);
 }
 
-// Never 0 for content; 0 for an empty or unreadable file.
+// States of a file without content; all others are hashes.
+constexpr std::uint64_t kAbsent = 0, kUnreadable = 1, kEmpty = 2;
+constexpr bool has_content(std::uint64_t state) { return state > kEmpty; }
+
+// Of a file that exists.
 std::uint64_t hash_file(const std::filesystem::path& file) {
   const Result<std::string> text = read_text_file(file);
-  if (!text || text->empty()) return 0;
+  if (!text) return kUnreadable;
+  if (text->empty()) return kEmpty;
   // FNV-1a over words, which is fast enough for meshes of some megabytes.
   std::uint64_t hash = 0xcbf29ce484222325u ^ text->size();
   for (std::size_t i = 0; i < text->size(); i += 8) {
@@ -34,7 +41,7 @@ std::uint64_t hash_file(const std::filesystem::path& file) {
     hash = (hash ^ word) * 0x100000001b3u;
     hash ^= hash >> 29;  // so that high bytes reach low bits
   }
-  return hash == 0 ? 1 : hash;
+  return has_content(hash) ? hash : ~hash;
 }
 
 }  // namespace
@@ -43,7 +50,7 @@ FileWatcher::Stamp FileWatcher::read_stamp(const std::filesystem::path& file) {
   struct stat info {};
   if (::stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
   return {true, static_cast<std::uintmax_t>(info.st_size),
-          std::int64_t{info.st_mtim.tv_sec} * 1'000'000'000 + info.st_mtim.tv_nsec,
+          nanoseconds(info.st_mtim), nanoseconds(info.st_ctim),
           static_cast<std::uint64_t>(info.st_ino)};
 }
 
@@ -61,7 +68,7 @@ void FileWatcher::watch(std::vector<std::filesystem::path> files) {
     }
     Entry entry;
     entry.stamp = read_stamp(file);
-    if (entry.stamp.exists) entry.reported_hash = hash_file(file);
+    entry.reported = entry.stamp.exists ? hash_file(file) : kAbsent;
     entry.file = std::move(file);
     entries.push_back(std::move(entry));
   }
@@ -76,17 +83,25 @@ bool FileWatcher::poll(std::vector<std::filesystem::path>& changed) {
     const bool stable = stamp == entry.stamp;
     entry.stamp = stamp;
     entry.settled = false;
-    const std::uint64_t hash = stamp.exists ? hash_file(entry.file) : 0;
-    if (hash == 0 || hash == entry.reported_hash) {
-      entry.pending_hash = 0;
-      entry.settled = hash != 0 && stable && wall_clock_ns() - stamp.modified_ns > kTrustedAgeNs;
-    } else if (hash != entry.pending_hash) {
-      entry.pending_hash = hash;  // perhaps half-written: wait for the next poll
-    } else {
-      entry.reported_hash = hash;
-      entry.pending_hash = 0;
-      changed.push_back(entry.file);
+    const std::uint64_t state = stamp.exists ? hash_file(entry.file) : kAbsent;
+    if (state == entry.reported) {
+      entry.pending_polls = 0;
+      entry.settled = has_content(state) && stable && wall_clock_ns() - stamp.modified_ns > kTrustedAgeNs;
+      continue;
     }
+    if (entry.pending_polls == 0 || state != entry.pending) {  // perhaps half-written: wait
+      entry.pending = state;
+      entry.pending_polls = 1;
+      entry.pending_since = Clock::now();
+      continue;
+    }
+    ++entry.pending_polls;
+    const bool lasting = has_content(state) || (entry.pending_polls >= kSettlePolls &&
+                                                Clock::now() - entry.pending_since >= settle_);
+    if (!lasting) continue;
+    entry.reported = state;
+    entry.pending_polls = 0;
+    changed.push_back(entry.file);
   }
   return changed.size() > before;
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <string>
 
@@ -26,7 +28,7 @@ class WatchFiles : public testing::Test {
   test::TemporaryFolder folder_;
   std::filesystem::path a_ = folder_ / "a.json";
   std::filesystem::path b_ = folder_ / "b.json";
-  FileWatcher watcher_;
+  FileWatcher watcher_{std::chrono::seconds(0)};  // polls alone count
 };
 
 TEST_F(WatchFiles, UnchangedFilesAreQuiet) {
@@ -90,6 +92,55 @@ TEST_F(WatchFiles, AFileMayVanishAndComeBack) {
   poll(1);
   test::write_in_place(a_, "two");
   EXPECT_THAT(poll(3), ElementsAre(a_));
+}
+
+TEST_F(WatchFiles, AFileThatStaysAwayIsReportedAndSoIsItsReturn) {
+  test::write_in_place(a_, "one");
+  watcher_.watch({a_});
+  std::filesystem::remove(a_);
+  EXPECT_THAT(poll(FileWatcher::kSettlePolls - 1), IsEmpty());
+  EXPECT_THAT(poll(1), ElementsAre(a_));
+  EXPECT_THAT(poll(20), IsEmpty());
+  test::write_in_place(a_, "one");  // as it was, but its owner took it for lost
+  EXPECT_THAT(poll(2), ElementsAre(a_));
+  EXPECT_THAT(poll(20), IsEmpty());
+}
+
+TEST_F(WatchFiles, AFileThatStaysEmptyIsReportedAndSoIsItsReturn) {
+  test::write_in_place(a_, "one");
+  watcher_.watch({a_});
+  test::write_in_place(a_, "");
+  EXPECT_THAT(poll(FileWatcher::kSettlePolls - 1), IsEmpty());
+  EXPECT_THAT(poll(1), ElementsAre(a_));
+  EXPECT_THAT(poll(20), IsEmpty());
+  std::filesystem::remove(a_);  // another error
+  EXPECT_THAT(poll(20), ElementsAre(a_));
+  test::write_in_place(a_, "one");
+  EXPECT_THAT(poll(2), ElementsAre(a_));
+}
+
+TEST_F(WatchFiles, AFileThatBecomesUnreadableIsReportedAndSoIsItsReturn) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read every file";
+  test::write_in_place(a_, "one");
+  std::filesystem::last_write_time(a_, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  watcher_.watch({a_});
+  EXPECT_THAT(poll(3), IsEmpty());
+  std::filesystem::permissions(a_, std::filesystem::perms::none);
+  EXPECT_THAT(poll(20), ElementsAre(a_));
+  std::filesystem::permissions(a_, std::filesystem::perms::owner_read);
+  EXPECT_THAT(poll(3), ElementsAre(a_));
+}
+
+TEST_F(WatchFiles, TheSettleTimeCountsBesidesThePolls) {
+  FileWatcher patient(std::chrono::hours(1));
+  test::write_in_place(a_, "one");
+  patient.watch({a_});
+  std::filesystem::remove(a_);
+  std::vector<std::filesystem::path> changed;
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(patient.poll(changed));
+  test::write_in_place(a_, "two");
+  EXPECT_FALSE(patient.poll(changed));
+  EXPECT_TRUE(patient.poll(changed));
 }
 
 TEST_F(WatchFiles, AnAbsentFileIsReportedWhenItAppears) {
