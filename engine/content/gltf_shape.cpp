@@ -114,8 +114,6 @@ constexpr auto kKnownExtensions =
     std::to_array<std::string_view>({"KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",
                                      "KHR_texture_basisu", "EXT_texture_webp", "KHR_xmp_json_ld"});
 
-constexpr std::size_t kMaxErrors = 100;
-
 class ShapeChecker {
  public:
   explicit ShapeChecker(GltfSource& source) : source_(source), root_(source.document->root()) {}
@@ -129,7 +127,6 @@ class ShapeChecker {
 
  private:
   void expand(JsonNode node, std::string_view pattern, const Rule& rule) {
-    if (found_.errors.size() >= kMaxErrors) return;
     if (pattern.empty()) return check_value(node, rule);
     pattern.remove_prefix(1);
     const std::string_view step = pattern.substr(0, pattern.find('/'));

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "engine/content/file_text.hpp"
+#include "engine/content/limit_errors.hpp"
 
 namespace fascicle::detail {
 namespace {
@@ -222,12 +223,12 @@ Diagnostic GltfSource::make(std::string path, std::string cause, std::string rem
 }
 
 void GltfSource::error(std::string path, std::string cause, std::string remedy) {
-  if (diagnostics.errors.size() < kMaxErrors)
+  if (has_room(diagnostics.errors, kMaxErrors, file))
     diagnostics.errors.push_back(make(std::move(path), std::move(cause), std::move(remedy)));
 }
 
 void GltfSource::warning(std::string path, std::string cause, std::string remedy) {
-  if (diagnostics.warnings.size() < kMaxErrors)
+  if (has_room(diagnostics.warnings, kMaxErrors, file))
     diagnostics.warnings.push_back(make(std::move(path), std::move(cause), std::move(remedy)));
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/content/json_tree.hpp"
+#include "engine/content/limit_errors.hpp"
 
 namespace fascicle::detail {
 namespace {
@@ -245,7 +246,7 @@ class Parser {
     if (code == std::errc::result_out_of_range) {
       // Both overflow and underflow come here; a number that underflows is zero.
       out.number = 0.0;
-      if (overflows(text_.substr(begin, at_ - begin)) && diagnostics_.errors.size() < kMaxErrors) {
+      if (overflows(text_.substr(begin, at_ - begin)) && has_room(diagnostics_.errors, kMaxErrors, tree_.file)) {
         diagnostics_.errors.push_back(tree_.diagnostic(
             value, begin,
             fmt::format("{} is too large for a number", text_.substr(begin, std::min<std::size_t>(at_ - begin, 32))),
@@ -409,8 +410,9 @@ class Parser {
     std::ranges::sort(children, [&](auto a, auto b) {
       return std::pair(std::string_view(name(a)), a) < std::pair(std::string_view(name(b)), b);
     });
-    for (std::size_t i = 1; i < children.size() && diagnostics_.errors.size() < kMaxErrors; ++i) {
+    for (std::size_t i = 1; i < children.size(); ++i) {
       if (name(children[i]) != name(children[i - 1])) continue;
+      if (!has_room(diagnostics_.errors, kMaxErrors, tree_.file)) continue;
       const TextPosition first = tree_.lines.position(text_, tree_.values[children[i - 1]].key_begin);
       diagnostics_.errors.push_back(tree_.diagnostic(
           children[i], tree_.values[children[i]].key_begin,

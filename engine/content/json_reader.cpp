@@ -10,6 +10,7 @@
 #include "engine/content/closest_name.hpp"
 #include "engine/content/file_text.hpp"
 #include "engine/content/json_tree.hpp"
+#include "engine/content/limit_errors.hpp"
 
 namespace fascicle {
 namespace {
@@ -170,18 +171,18 @@ Diagnostic JsonNode::where(std::string cause, std::string remedy) const {
 }
 
 void JsonNode::error(Diagnostics& diagnostics, std::string cause, std::string remedy) const {
-  if (diagnostics.errors.size() >= kMaxErrors) return;
+  if (!has_room(diagnostics.errors, kMaxErrors, file())) return;
   diagnostics.errors.push_back(where(std::move(cause), std::move(remedy)));
 }
 
 void JsonNode::warning(Diagnostics& diagnostics, std::string cause, std::string remedy) const {
-  if (diagnostics.warnings.size() >= kMaxErrors) return;
+  if (!has_room(diagnostics.warnings, kMaxErrors, file())) return;
   diagnostics.warnings.push_back(where(std::move(cause), std::move(remedy)));
 }
 
 void JsonNode::error_at_key(Diagnostics& diagnostics, std::string cause, std::string remedy) const {
   if (key().data() == nullptr) return error(diagnostics, std::move(cause), std::move(remedy));
-  if (diagnostics.errors.size() >= kMaxErrors) return;
+  if (!has_room(diagnostics.errors, kMaxErrors, file())) return;
   diagnostics.errors.push_back(
       tree_->diagnostic(index_, value_of(tree_, index_).key_begin, std::move(cause), std::move(remedy)));
 }

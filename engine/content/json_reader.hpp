@@ -98,7 +98,7 @@ class JsonNode {
   std::string path() const;  // JSON pointer: "/muscles/3/origin"; empty for the root
   const std::string& file() const;
 
-  // This place, with a cause and a remedy. Beyond 200 errors in `diagnostics` no more are added.
+  // This place, with a cause and a remedy. Beyond 200 errors in `diagnostics` more are only counted, in a last entry.
   Diagnostic where(std::string cause = {}, std::string remedy = {}) const;
   void error(Diagnostics& diagnostics, std::string cause, std::string remedy) const;
   void warning(Diagnostics& diagnostics, std::string cause, std::string remedy) const;

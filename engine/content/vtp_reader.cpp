@@ -15,6 +15,7 @@
 #include <pugixml.hpp>
 
 #include "engine/content/file_text.hpp"
+#include "engine/content/limit_errors.hpp"
 #include "engine/content/text_position.hpp"
 
 namespace fascicle {
@@ -40,7 +41,7 @@ class VtpParser {
  private:
   // --- errors ---
   void add(std::vector<Diagnostic>& list, std::size_t offset, std::string path, std::string cause, std::string remedy) {
-    if (list.size() >= kMaxErrors) return;
+    if (!has_room(list, kMaxErrors, file_)) return;
     const TextPosition at = lines_.position(text_, offset);
     list.push_back({file_, at.line, at.column, std::move(path), std::move(cause), std::move(remedy)});
   }

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "engine/content/limit_errors.hpp"
 #include "tests/engine/content/temporary_folder.hpp"
 
 namespace fascicle {
@@ -93,7 +94,12 @@ TEST(JsonNode, AMillionErrorsOnOneLineEndSoon) {
   Diagnostics diagnostics;
   std::vector<float> numbers;
   EXPECT_FALSE(document.root().read(numbers, diagnostics));
-  EXPECT_EQ(diagnostics.errors.size(), 200u);
+  ASSERT_EQ(diagnostics.errors.size(), 201u);
+  EXPECT_EQ(to_string(diagnostics.errors.back()), "f: 999801 more are left out; mend those above, then check again");
+  EXPECT_EQ(count_with_left_out(diagnostics.errors), 1000001u);
+  for (int i = 0; i < 250; ++i) document.root().warning(diagnostics, "odd", "");
+  EXPECT_EQ(diagnostics.warnings.size(), 201u);
+  EXPECT_EQ(count_with_left_out(diagnostics.warnings), 250u);
 }
 
 TEST(JsonNode, ValuesAreRead) {

@@ -87,6 +87,16 @@ TEST(JsonSyntax, AllDuplicatesAndHugeNumbersAreFoundInOneGo) {
   EXPECT_EQ(result.diagnostics().errors.size(), 5u);
 }
 
+TEST(JsonSyntax, ErrorsBeyondTheLimitAreCounted) {
+  std::string text = R"({"b": 1e400)";
+  for (int i = 0; i < 150; ++i) text += R"(, "a": 1e400)";
+  const Result<JsonDocument> result = parse_json(text + "}", "f");
+  ASSERT_FALSE(result.ok());
+  ASSERT_EQ(result.diagnostics().errors.size(), 101u);  // of 151 numbers and 149 duplicates
+  EXPECT_EQ(to_string(result.diagnostics().errors.back()),
+            "f: 200 more are left out; mend those above, then check again");
+}
+
 TEST(JsonSyntax, DepthIsCountedNotSummed) {
   std::string text = "[";
   for (int i = 0; i < 200; ++i) text += std::string(i > 0 ? "," : "") + "[[]]";
