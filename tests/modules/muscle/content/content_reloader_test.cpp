@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <random>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -121,6 +122,31 @@ TEST(ContentReloader, NoticesAFileThatAppears) {
   outcome = reloader.wait();
   ASSERT_TRUE(outcome && outcome->scene);
   EXPECT_EQ(outcome->scene->characters[2].character->name, "more");
+}
+
+// A file that stays away is an error that the running scene outlives; its return is news even where it is as it was.
+TEST(ContentReloader, TellsOfAFileThatIsLostAndOfItsReturn) {
+  const ScratchFolder folder;
+  const auto file = write_pair(folder);
+  ContentReloader reloader(file, load(file));
+  reloader.wait();  // files as young as these may be loaded again
+  const auto poll_long = [&] {
+    std::optional<ReloadOutcome> outcome;
+    for (int i = 0; i < 5000 && !outcome; ++i) {
+      outcome = reloader.poll();
+      if (!outcome) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return outcome;
+  };
+  std::filesystem::remove(folder.path() / "shapes.gltf");
+  auto outcome = poll_long();
+  ASSERT_TRUE(outcome);
+  EXPECT_FALSE(outcome->scene);
+  EXPECT_THAT(to_text(outcome->diagnostics), HasSubstr("'shapes.gltf' does not exist"));
+  folder.write("shapes.gltf", kShapes);
+  outcome = poll_long();
+  ASSERT_TRUE(outcome);
+  EXPECT_TRUE(outcome->scene);
 }
 
 TEST(ContentReloader, StartsFromAFileThatDoesNotLoad) {
