@@ -1,14 +1,18 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "engine/animation/skeleton.hpp"
+#include "engine/content/closest_name.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/content/character_asset.hpp"
@@ -30,8 +34,28 @@ fs::path find_character(const std::string& name_or_path) {
   return muscle::find_content_folder() / "characters" / given / (given.filename().string() + ".character.json");
 }
 
+// The characters that can be given by name.
+std::vector<std::string> known_characters() {
+  std::vector<std::string> names;
+  std::error_code error;
+  const fs::path folder = muscle::find_content_folder() / "characters";
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (fs::is_regular_file(find_character(name), error)) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 int print_counts(const std::string& name) {
-  const auto character = muscle::load_character(find_character(name));
+  const fs::path file = find_character(name);
+  if (std::error_code error; !fs::exists(file, error)) {
+    const std::vector<std::string> known = known_characters();
+    fmt::print(stderr, "{}: no such character, nor such a file; {}\n", name,
+               suggest_name(name, std::span<const std::string>(known), "characters"));
+    return kErrors;
+  }
+  const auto character = muscle::load_character(file);
   for (const Diagnostic& error : character.diagnostics().errors) fmt::print(stderr, "{}\n", to_string(error));
   if (!character) return kErrors;
   std::vector<muscle::MuscleDescription> descriptions = (*character)->descriptions;

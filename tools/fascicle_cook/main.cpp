@@ -5,9 +5,13 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/fascicle_cook/commands.hpp"
+#include "tools/run_program.hpp"
 
-int main(int argc, char** argv) {
-  using namespace fascicle;
+namespace {
+
+using namespace fascicle;
+
+int run(int argc, char** argv) {
   CLI::App program("Makes content for Fascicle from other sources, and tells what content amounts to.",
                    "fascicle-cook");
   program.require_subcommand(1);
@@ -21,4 +25,10 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? cook::kFine : cook::kUsage;
   }
   return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return fascicle::run_program("fascicle-cook", [&] { return run(argc, argv); });
 }

@@ -20,8 +20,8 @@ struct Outcome {
   std::string output;  // standard output
 };
 
-Outcome run(const std::string& arguments) {
-  const std::string command = std::string(FASCICLE_CHECK) + " " + arguments + " 2>/dev/null";
+Outcome run(const std::string& arguments, const std::string& redirections = "2>/dev/null") {
+  const std::string command = std::string(FASCICLE_CHECK) + " " + arguments + " " + redirections;
   Outcome result;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return result;
@@ -93,6 +93,40 @@ TEST(FascicleCheck, WarningsDoNotFailAndMigrationEndsThem) {
   old = run(file);
   EXPECT_EQ(old.status, 0);
   EXPECT_THAT(old.output, testing::Not(HasSubstr("warning")));
+}
+
+TEST(FascicleCheck, MigrationChecksTheFile) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("block.character.json", test::kBlock).string();
+  const Outcome migrated = run("--migrate " + file);
+  EXPECT_EQ(migrated.status, 1);
+  EXPECT_THAT(migrated.output, HasSubstr("'shapes.gltf' does not exist"));
+  EXPECT_THAT(migrated.output, testing::Not(HasSubstr("fine")));
+}
+
+TEST(FascicleCheck, OutputThatIsLostIsAFailure) {
+  const ScratchFolder folder;
+  const std::string scene = write_pair(folder).string();
+  for (const std::string& arguments : {scene, std::string("--print-schema scene"), "--format json " + scene}) {
+    const Outcome full = run(arguments, "2>&1 >/dev/full");
+    EXPECT_EQ(full.status, 1) << arguments;
+    EXPECT_THAT(full.output, HasSubstr("fascicle-check: ")) << arguments;
+    EXPECT_THAT(full.output, HasSubstr("No space left")) << arguments;
+  }
+}
+
+TEST(FascicleCheck, SuggestsFilesForNamesWithoutOne) {
+  ASSERT_EQ(::setenv("FASCICLE_CONTENT", FASCICLE_SOURCE_DIR "/content", 1), 0);
+  Outcome missing = run("wlaker");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.output, HasSubstr("wlaker: no such file; did you mean '" FASCICLE_SOURCE_DIR "/content/"));
+  EXPECT_THAT(missing.output, HasSubstr("walker.character.json'"));
+  missing = run("wlaker.scene.json");
+  EXPECT_THAT(missing.output,
+              HasSubstr("did you mean '" FASCICLE_SOURCE_DIR "/content/scenes/walker.scene.json'?"));
+  missing = run("qqqqqqqqqqqqqqqqqqqqqqqqq");
+  EXPECT_THAT(missing.output, HasSubstr("known files: "));
+  ::unsetenv("FASCICLE_CONTENT");
 }
 
 TEST(FascicleCheck, PrintsTheSchemas) {
