@@ -82,7 +82,7 @@ void RunRecorder::end_frame(const Simulation& simulation) {
   const std::int64_t now = monotonic_ns();
   trace_->add_frame(frames_, frame_start_ns_, now);
   trace_->add_counter("frame ms", now, static_cast<double>(now - frame_start_ns_) * 1e-6);
-  trace_->add_counter("muscles held", now, static_cast<double>(simulation.held_steps()));
+  trace_->add_counter("held", now, static_cast<double>(simulation.held_steps()));
   trace_->add_counter("steps dropped", now, static_cast<double>(simulation.clamped_steps()));
 }
 
@@ -108,8 +108,8 @@ int RunRecorder::finish(Simulation& simulation) {
   }
   if (const std::uint64_t held = simulation.held_steps(); held > 0) {
     std::fprintf(stderr,
-                 "warning: muscles kept their last shape %llu times because their bones were not finite or too far "
-                 "from the origin for single precision\n",
+                 "warning: %llu times a character or muscle kept its last shape because its bones were not finite or "
+                 "too far from the origin for single precision\n",
                  static_cast<unsigned long long>(held));
   }
   stats_.set_memory(simulation.world().memory_by_component());

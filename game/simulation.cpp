@@ -96,7 +96,8 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
   if (placed.animation.clip) {
     world_.add(spawned.entity, ClipPlayer{.clip = placed.animation.clip,
                                           .time = phase * placed.animation.clip->duration(),
-                                          .speed = placed.animation.speed});
+                                          .speed = placed.animation.speed,
+                                          .in_place = placed.in_place});
   }
   if (asset.joints) {
     world_.add(spawned.entity, make_coordinate_pose(asset.joints));
@@ -177,6 +178,7 @@ std::uint64_t Simulation::hash() const {
 std::uint64_t Simulation::held_steps() const {
   std::uint64_t held = 0;
   for (const SpawnedCharacter& character : characters_) {
+    held += world_.get<BoneMatrices>(character.entity).held_steps;
     if (character.musculature == ecs::kNoEntity) continue;
     held += world_.get<muscle::ActionLines>(character.musculature).held_steps;
   }
@@ -201,7 +203,7 @@ void Simulation::record_metrics(Report& report) const {
   report.record("muscle.length_mean_m", length / static_cast<double>(muscles));
   report.record("muscle.length_ratio_max", worst_stretch);
   report.record("muscle.volume_total_m3", volume);
-  report.record("muscle.held_steps", static_cast<double>(held_steps()));
+  report.record("held_steps", static_cast<double>(held_steps()));
 }
 
 }  // namespace fascicle::game

@@ -68,7 +68,7 @@ class Simulation {
   // A 64-bit hash of bone matrices, muscles' state and surfaces.
   std::uint64_t hash() const;
 
-  // How often a muscle kept its last shape because a bone of it was not finite, over all muscles and steps.
+  // How often a character kept its last bones, or a muscle its last shape, because the new ones were not finite.
   std::uint64_t held_steps() const;
 
   // This step's metrics of every part of the simulation, by name.

@@ -19,6 +19,8 @@ struct CoordinatePose {
   std::vector<double> values;
 };
 
+inline std::size_t heap_bytes(const CoordinatePose& pose) { return pose.values.capacity() * sizeof(double); }
+
 // Component: plays a motion on the entity's CoordinatePose. The motion must have been read for the same model.
 struct MotionPlayer {
   std::shared_ptr<const Motion> motion;

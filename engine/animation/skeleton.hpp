@@ -82,4 +82,10 @@ glm::mat4 to_matrix(const Placement& placement);
 // A pose at rest, with room for all bones.
 LocalPose make_rest_pose(std::shared_ptr<const Skeleton> skeleton);
 
+// What they own on the heap, for the statistics; the shared skeleton is nobody's own.
+inline std::size_t heap_bytes(const LocalPose& pose) { return pose.bones.capacity() * sizeof(Trs); }
+inline std::size_t heap_bytes(const BoneMatrices& bones) {
+  return (bones.world.capacity() + bones.next.capacity()) * sizeof(glm::mat4);
+}
+
 }  // namespace fascicle

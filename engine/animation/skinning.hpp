@@ -38,6 +38,10 @@ struct SkinnedSurface {
   std::vector<glm::mat4> joint_matrices;  // bind space -> world, of the current frame
 };
 SkinnedSurface make_skinned_surface(const SkinAsset& asset);
+inline std::size_t heap_bytes(const SkinnedSurface& surface) {
+  return (surface.positions.capacity() + surface.normals.capacity()) * sizeof(glm::vec3) +
+         surface.joint_matrices.capacity() * sizeof(glm::mat4);
+}
 
 // joint_matrices[j] = world[joint_bones[j]] * inverse_binds[j].
 void compute_joint_matrices(const SkinAsset& asset, std::span<const glm::mat4> world,

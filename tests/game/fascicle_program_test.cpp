@@ -136,7 +136,7 @@ TEST_F(FascicleProgram, WritesStatisticsTraceReportAndHash) {
   EXPECT_EQ(report["hash"].asString(), hash);
   ASSERT_EQ(report["metrics"]["muscle.length_ratio_max"].size(), 25u);
   EXPECT_GT(report["metrics"]["muscle.length_ratio_max"][24].asDouble(), 1.0);
-  EXPECT_EQ(report["metrics"]["muscle.held_steps"][24].asDouble(), 0.0);
+  EXPECT_EQ(report["metrics"]["held_steps"][24].asDouble(), 0.0);
 }
 
 TEST_F(FascicleProgram, DetailGivesRowsPerCharacterAndMuscle) {

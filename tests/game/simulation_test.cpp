@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/animation/skeleton.hpp"
+#include "engine/animation/skinning.hpp"
 #include "modules/muscle/muscle.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/test_data.hpp"
@@ -93,6 +94,34 @@ TEST(Simulation, SwappingInTheSameSceneChangesNothing) {
   simulation.swap_scene(load("walker"));
   for (int i = 0; i < 30; ++i) simulation.step();
   EXPECT_EQ(simulation.hash(), hash_after(scene, 60, {.workers = 1}));
+}
+
+TEST(Simulation, MemoryCountsWhatComponentsOwn) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  const Simulation simulation(scene, {.workers = 1});
+  const SpawnedCharacter& walker = simulation.characters()[0];
+  const std::size_t bones = walker.asset->skeleton->size(), skin = walker.asset->skins[0]->size();
+  std::size_t found = 0;
+  for (const ecs::ComponentMemory& row : simulation.world().memory_by_component()) {
+    if (row.name == "BoneMatrices") {
+      ++found;
+      EXPECT_GE(row.bytes, bones * sizeof(glm::mat4));
+    }
+    if (row.name == "LocalPose") {
+      ++found;
+      EXPECT_GE(row.bytes, bones * sizeof(Trs));
+    }
+    if (row.name == "SkinnedSurface") {
+      ++found;
+      EXPECT_GE(row.bytes, 2 * skin * sizeof(glm::vec3));
+    }
+    if (row.name == "MuscleSurfaces") {
+      ++found;
+      EXPECT_GE(row.bytes, 5280 * sizeof(muscle::SurfaceVertex));
+    }
+  }
+  EXPECT_EQ(found, 4u);
 }
 
 TEST(Simulation, ARefreshIsNoStep) {
