@@ -1,9 +1,8 @@
 // fascicle: the game. Loads a scene and its characters, registers the systems and runs them, in a window or headless.
 
 #include <cstdio>
-#include <exception>
-#include <new>
 
+#include "engine/content/run_program.hpp"
 #include "game/game_options.hpp"
 #include "game/run_headless.hpp"
 #include "game/run_window.hpp"
@@ -46,17 +45,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  int status = game::kExitNoOutput;
-  try {
-    status = run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "Out of memory; ask for fewer characters or a coarser level of detail.\n");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "The run ended early: %s\n", error.what());
-  }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    std::fprintf(stderr, "The output could not be written; check where it goes and that there is room.\n");
-    if (status == game::kExitOk) status = game::kExitNoOutput;
-  }
-  return status;
+  return fascicle::run_program("fascicle", [&] { return run(argc, argv); }, fascicle::game::kExitNoOutput);
 }

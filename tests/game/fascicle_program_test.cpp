@@ -88,7 +88,7 @@ TEST_F(FascicleProgram, AFullOutputIsNoticed) {
                               file("err") + "'";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), kExitNoOutput);
-  EXPECT_THAT(err(), HasSubstr("could not be written"));
+  EXPECT_THAT(err(), HasSubstr("cannot be written"));
 }
 
 TEST_F(FascicleProgram, APictureOfAFrameThatNeverComesIsAnError) {

@@ -18,7 +18,7 @@
 #include "engine/content/limit_errors.hpp"
 #include "modules/muscle/content/check_content.hpp"
 #include "modules/muscle/content/find_content.hpp"
-#include "tools/run_program.hpp"
+#include "engine/content/run_program.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/fascicle_cook/commands.hpp"
-#include "tools/run_program.hpp"
+#include "engine/content/run_program.hpp"
 
 namespace {
 
