@@ -106,6 +106,8 @@ MeshReference split_mesh_reference(const std::string& reference) {
   return {reference.substr(0, hash), reference.substr(hash + 1)};
 }
 
+bool is_mesh_file(const std::filesystem::path& file) { return is_gltf(file) || lower_extension(file) == ".vtp"; }
+
 Result<TriangleMesh> read_mesh(const std::string& file) {
   const MeshReference reference = split_mesh_reference(file);
   if (is_gltf(reference.file)) {

@@ -13,6 +13,9 @@ namespace fascicle {
 // without #NAME all meshes of the file are joined. glTF meshes come in the file's rest space (node transforms applied).
 Result<TriangleMesh> read_mesh(const std::string& file);
 
+// Whether read_mesh knows the file's extension.
+bool is_mesh_file(const std::filesystem::path& file);
+
 // The same from a glTF file that was read already: one mesh by name, or with an empty name all of them joined.
 struct GltfFile;
 Result<TriangleMesh> extract_mesh(const GltfFile& file, const std::string& name);
