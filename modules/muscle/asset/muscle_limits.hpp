@@ -25,6 +25,10 @@ inline constexpr NumberRange kRelativeRadiusRange{.min = 0, .max = 1e6};        
 inline constexpr NumberRange kPositionRange{.min = -100, .max = 100};  // m along each axis, from the bone or the origin
 inline constexpr NumberRange kSectionVerticesRange{.min = 6, .max = static_cast<double>(kMaxSectionVertices)};  // even
 inline constexpr NumberRange kSubdivisionRange{.min = 0, .max = 6};
+inline constexpr NumberRange kCoarserLevelsRange{.min = 0, .max = 6};
+inline constexpr NumberRange kSupersamplingRange{.min = 1, .max = 16};                        // CSS
+inline constexpr NumberRange kMaxDistanceRange{.min = 0, .max = 1000, .above_min = true};     // mm
+inline constexpr NumberRange kAreaRange{.min = 0, .max = 1000, .above_min = true};            // mm
 inline constexpr float kRightAngle = std::numbers::pi_v<float> / 2.0f;  // rad: pennation is at least 0 and below it
 inline constexpr std::size_t kMostViaPoints = 256;
 inline constexpr std::size_t kFewestProfilePoints = 2;

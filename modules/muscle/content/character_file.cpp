@@ -40,18 +40,7 @@ BoneMeshEntry read_bone_mesh(const JsonNode& node, const ReadContext& context) {
   JsonObject object(node, context.diagnostics);
   entry.bone = read_name(object, "bone", true);
   entry.file = read_name(object, "file", true);
-  object.optional("translation", entry.transform.translation, between(-100, 100));
-  object.optional("rotation", entry.transform.rotation);
-  if (const JsonNode scale = object.optional("scale"); scale.exists()) {
-    glm::vec3 value(1.0f);
-    if (scale.read(value, context.diagnostics, between(-1000, 1000))) {
-      if (value.x == 0.0f || value.y == 0.0f || value.z == 0.0f) {
-        scale.error(context.diagnostics, "a scale of 0 flattens the mesh", "give three factors other than 0");
-      } else {
-        entry.transform.scale = value;
-      }
-    }
-  }
+  read_placement(object, entry.transform);
   std::size_t space = 0;
   if (object.optional_choice("space", space, {"bone", "character"})) entry.in_character_space = space == 1;
   finish_object(object, "bone_mesh", context);
@@ -63,6 +52,7 @@ void read_muscle_meshes(const JsonNode& node, CharacterFile& file, const ReadCon
   file.muscle_meshes = read_name(object, "file", true);
   std::size_t space = 0;
   object.optional_choice("bones_space", space, {"character"});
+  read_unit(object, file.muscle_mesh_unit);
   finish_object(object, "muscle_meshes", context);
 }
 
@@ -95,6 +85,26 @@ void read_mirror(const JsonNode& node, MirrorRule& rule, const ReadContext& cont
 
 }  // namespace
 
+void read_placement(JsonObject& object, Trs& transform) {
+  Diagnostics& diagnostics = object.diagnostics();
+  object.optional("translation", transform.translation, between(-100, 100));
+  object.optional("rotation", transform.rotation);
+  const JsonNode scale = object.optional("scale");
+  glm::vec3 value(1.0f);
+  if (!scale.exists() || !scale.read(value, diagnostics, between(-1000, 1000))) return;
+  if (value.x == 0.0f || value.y == 0.0f || value.z == 0.0f) {
+    scale.error(diagnostics, "a scale of 0 flattens the mesh", "give three factors other than 0");
+  } else {
+    transform.scale = value;
+  }
+}
+
+void read_unit(JsonObject& object, float& unit) {
+  constexpr float kMetres[] = {1.0f, 0.01f, 0.001f, 0.0254f, 0.3048f};
+  std::size_t choice = 0;
+  if (object.optional_choice("unit", choice, {"m", "cm", "mm", "in", "ft"})) unit = kMetres[choice];
+}
+
 CharacterFile read_character_file(const JsonNode& root, const ReadContext& context) {
   CharacterFile file;
   file.root = root;
@@ -120,8 +130,15 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
   }
   if (const JsonNode node = object.optional("level"); node.exists()) {
     JsonObject level(node, context.diagnostics);
-    read_level(level, file.section_vertices, file.longitudinal_subdivision);
+    read_level(level, file.level);
+    level.optional("coarser_levels", file.coarser_levels, kCoarserLevelsRange);
     finish_object(level, "level", context);
+  }
+  if (const JsonNode node = object.optional("fit"); node.exists()) {
+    JsonObject fit(node, context.diagnostics);
+    fit.optional("enabled", file.fit);
+    fit.optional("supersampling", file.fit_supersampling, kSupersamplingRange);
+    finish_object(fit, "fit", context);
   }
   object.optional("specific_tension", file.specific_tension, kSpecificTensionRange);
   file.muscles_from = read_name(object, "muscles_from", false);

@@ -26,12 +26,39 @@ struct NameEntry {
   bool given() const { return node.exists(); }
 };
 
+// The part of a muscle's mesh where it is attached: what lies within a distance of a bone's meshes, or of the point.
+struct AreaEntry {
+  JsonNode node;
+  NameEntry bone;        // whose meshes; not given: the attachment's own
+  bool of_bone = false;  // else: of the attachment's point
+  float within = 0.0f;   // m
+  bool given() const { return node.exists(); }
+};
+
 struct AttachmentEntry {
   JsonNode node;
   NameEntry bone;
   std::optional<glm::vec3> position;  // m, in the bone's frame or the character's rest space; empty: wrong or missing
   JsonNode position_node;
   bool counts = true;
+  AreaEntry area;
+};
+
+// A muscle's anatomical mesh: one of those in the file of "muscle_meshes", by name, or a file of its own.
+struct MeshEntry {
+  JsonNode node;      // as written; without a node: none
+  NameEntry name;
+  NameEntry file;
+  float unit = 1.0f;  // m; of the file's numbers
+  Trs transform;      // scaled to metres, to the rest space
+  bool given() const { return node.exists(); }
+};
+
+// Level of detail: counts, or the largest distance that they may leave between the fitted surface and the mesh.
+struct LevelEntry {
+  std::optional<std::uint32_t> section_vertices;          // |C|
+  std::optional<std::uint32_t> longitudinal_subdivision;  // LSS
+  std::optional<float> max_distance;                      // m; then neither of the others
 };
 
 struct MuscleEntry {
@@ -40,9 +67,9 @@ struct MuscleEntry {
   bool mirror = false;
   std::vector<AttachmentEntry> attachments;  // origin, via points, insertion
   MuscleDescription values;                  // everything but name and attachments; `where` is set
-  NameEntry mesh;
-  std::optional<std::uint32_t> section_vertices;
-  std::optional<std::uint32_t> longitudinal_subdivision;
+  MeshEntry mesh;
+  bool fit = true;                           // false: keeps its unfitted shape, whatever its mesh
+  LevelEntry level;
   bool sound = false;                        // read without an error
 };
 
@@ -75,10 +102,13 @@ struct CharacterFile {
   std::vector<NameEntry> skin_meshes;     // empty: all that are skinned
   std::vector<BoneMeshEntry> bone_meshes;
   NameEntry muscle_meshes;
+  float muscle_mesh_unit = 1.0f;          // m
   MirrorRule mirror;
   bool positions_in_character_space = false;
-  std::optional<std::uint32_t> section_vertices;
-  std::optional<std::uint32_t> longitudinal_subdivision;
+  LevelEntry level;
+  std::uint32_t coarser_levels = 2;       // at most, for characters that are small on the screen
+  bool fit = true;
+  std::uint32_t fit_supersampling = 3;    // CSS
   float specific_tension = 0.0f;          // N/m^2; 0: the module's default
   NameEntry muscles_from;                 // another character file
   std::vector<MuscleEntry> muscles;
@@ -90,8 +120,11 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
 // Parts of it, one object each.
 MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context);
 NameEntry read_name(JsonObject& object, std::string_view field, bool required);
-// "level" of a character, or the same two fields of a muscle: |C| even and from 6 to 256, LSS from 0 to 6.
-void read_level(JsonObject& object, std::optional<std::uint32_t>& section_vertices,
-                std::optional<std::uint32_t>& longitudinal_subdivision);
+// "level" of a character, or the same fields of a muscle.
+void read_level(JsonObject& object, LevelEntry& level);
+// "translation", "rotation" and "scale" of a mesh.
+void read_placement(JsonObject& object, Trs& transform);
+// "unit": metres a unit; unchanged where it is not given.
+void read_unit(JsonObject& object, float& unit);
 
 }  // namespace fascicle::muscle

@@ -12,7 +12,6 @@
 #include "engine/content/gltf_reader.hpp"
 #include "engine/content/mesh_reader.hpp"
 #include "engine/content/triangle_mesh.hpp"
-#include "engine/content/vtp_reader.hpp"
 #include "modules/muscle/content/find_content.hpp"
 
 namespace fascicle::muscle {
@@ -147,15 +146,15 @@ std::shared_ptr<const TriangleMesh> ContentSources::mesh(const std::string& refe
     if (!cached) cached = rest_space_mesh(*file, static_cast<std::size_t>(found - file->meshes.data()));
     return cached;
   }
-  if (extension != ".vtp") {
+  if (!is_mesh_file(parts.file)) {
     node.error(diagnostics, fmt::format("'{}' is of no known mesh format", reference),
-               "name a .vtp file, or a mesh in a .glb as FILE.glb#NAME");
+               "name a .vtk, .vtp, .obj, .ply or .stl file, or a mesh in a .glb as FILE.glb#NAME");
     return nullptr;
   }
   const std::optional<fs::path> path = resolve(reference, base, node, diagnostics);
   if (!path) return nullptr;
   if (const auto known = meshes_.find(path->string()); known != meshes_.end()) return known->second;
-  Result<TriangleMesh> read = read_vtp(*path);
+  Result<TriangleMesh> read = read_mesh(path->string());
   std::shared_ptr<const TriangleMesh> mesh;
   if (read) mesh = std::make_shared<const TriangleMesh>(std::move(*read));
   diagnostics.append(std::move(read.diagnostics()));

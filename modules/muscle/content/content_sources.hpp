@@ -42,7 +42,8 @@ class ContentSources {
   std::shared_ptr<const GltfFile> gltf(const std::string& reference, const std::filesystem::path& base,
                                        const JsonNode& node, Diagnostics& diagnostics);
 
-  // "FILE.vtp" or "FILE.glb#NAME" (#NAME may be left out where the file has one mesh), in the file's rest space (m).
+  // A file of one of read_mesh's formats, or "FILE.glb#NAME" (#NAME may be left out where the file has one mesh), in
+  // the file's rest space and unit.
   std::shared_ptr<const TriangleMesh> mesh(const std::string& reference, const std::filesystem::path& base,
                                            const JsonNode& node, Diagnostics& diagnostics);
 

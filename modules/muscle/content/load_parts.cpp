@@ -1,5 +1,6 @@
 #include "modules/muscle/content/load_parts.hpp"
 
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -43,14 +44,16 @@ std::vector<std::string> names_of_meshes(const GltfFile& file) {
   return names;
 }
 
+// A reflection turns triangles inside out; exchanging two corners turns them back.
+void turn_triangles(TriangleMesh& mesh) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+}
+
 std::shared_ptr<const TriangleMesh> reflect(const TriangleMesh& mesh, int axis) {
   auto reflected = std::make_shared<TriangleMesh>(mesh);
   for (glm::vec3& position : reflected->positions) position = mirror_point(position, axis);
   for (glm::vec3& normal : reflected->normals) normal = mirror_point(normal, axis);
-  // A reflection turns triangles inside out; exchanging two corners turns them back.
-  for (std::size_t i = 0; i + 2 < reflected->indices.size(); i += 3) {
-    std::swap(reflected->indices[i + 1], reflected->indices[i + 2]);
-  }
+  turn_triangles(*reflected);
   return reflected;
 }
 
@@ -121,38 +124,110 @@ void load_bone_meshes(const CharacterFile& file, const fs::path& base, ContentSo
   }
 }
 
+namespace {
+
+// The muscles' meshes of one file. Muscles with the same mesh get the same object: they are its heads.
+class MuscleMeshes {
+ public:
+  MuscleMeshes(const CharacterFile& file, const fs::path& base, ContentSources& sources, Diagnostics& diagnostics)
+      : file_(file), base_(base), sources_(sources), diagnostics_(diagnostics) {}
+
+  // False where the file of "muscle_meshes" cannot be read.
+  bool open() {
+    if (!file_.muscle_meshes.given()) return true;
+    named_ = sources_.gltf(file_.muscle_meshes.text, base_, file_.muscle_meshes.node, diagnostics_);
+    return named_ != nullptr;
+  }
+
+  // Null where there is none, or it is wrong, which has been told then.
+  std::shared_ptr<const TriangleMesh> find(const ResolvedMuscle& muscle) {
+    if (muscle.mesh.file.given()) {
+      const auto mesh = load_file(muscle.mesh);
+      return mesh && muscle.mirror_axis >= 0 ? reflected(mesh, muscle.mirror_axis) : mesh;
+    }
+    if (!muscle.mesh.name.given() || !named_) return nullptr;
+    const auto own = load_named(muscle.mesh.name.text);
+    if (own || muscle.mirror_axis < 0) return own;
+    const auto original = load_named(muscle.mirrored_mesh.text);
+    return original ? reflected(original, muscle.mirror_axis) : nullptr;
+  }
+
+  void check_name(const NameEntry& name) {
+    if (!named_) {
+      name.node.error(diagnostics_, fmt::format("the mesh '{}' is named, but the file has no muscle_meshes", name.text),
+                      "add \"muscle_meshes\": {\"file\": \"muscles.glb\"}, or leave out \"mesh\"");
+    } else if (named_->find_mesh(name.text) == nullptr) {
+      name.node.error(diagnostics_, fmt::format("'{}' has no mesh '{}'", file_.muscle_meshes.text, name.text),
+                      suggest_name(name.text, names_of_meshes(*named_), "meshes"));
+    }
+  }
+
+ private:
+  using Mesh = std::shared_ptr<const TriangleMesh>;
+
+  Mesh load_named(const std::string& name) {
+    const GltfMesh* mesh = named_->find_mesh(name);
+    if (mesh == nullptr) return nullptr;
+    Mesh& known = by_name_[mesh->name];
+    if (!known) {
+      known = placed(rest_space_mesh(*named_, static_cast<std::size_t>(mesh - named_->meshes.data())),
+                     file_.muscle_mesh_unit, Trs{});
+    }
+    return known;
+  }
+
+  Mesh load_file(const MeshEntry& entry) {
+    Mesh mesh = sources_.mesh(entry.file.text, base_, entry.file.node, diagnostics_);
+    if (!mesh) return nullptr;
+    // The same file may be placed in several ways.
+    const Trs& t = entry.transform;
+    const std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", entry.file.text, entry.unit, t.scale.x,
+                                        t.scale.y, t.scale.z, t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w,
+                                        t.translation.x, t.translation.y, t.translation.z);
+    Mesh& known = by_file_[key];
+    if (!known) known = placed(std::move(mesh), entry.unit, t);
+    return known;
+  }
+
+  static Mesh placed(Mesh mesh, float unit, Trs transform) {
+    transform.scale *= unit;
+    const glm::mat4 matrix = to_matrix(transform);
+    if (matrix == glm::mat4(1.0f)) return mesh;
+    auto moved = std::make_shared<TriangleMesh>(*mesh);
+    for (glm::vec3& position : moved->positions) position = glm::vec3(matrix * glm::vec4(position, 1.0f));
+    moved->normals.clear();  // the fit makes no use of them
+    const bool mirrors = transform.scale.x * transform.scale.y * transform.scale.z < 0.0f;
+    if (mirrors) turn_triangles(*moved);
+    return moved;
+  }
+
+  Mesh reflected(const Mesh& mesh, int axis) {
+    Mesh& known = reflected_[mesh];
+    if (!known) known = reflect(*mesh, axis);
+    return known;
+  }
+
+  const CharacterFile& file_;
+  const fs::path& base_;
+  ContentSources& sources_;
+  Diagnostics& diagnostics_;
+  std::shared_ptr<const GltfFile> named_;
+  std::map<std::string, Mesh> by_name_, by_file_;
+  std::map<Mesh, Mesh> reflected_;  // looked up only, never gone through
+};
+
+}  // namespace
+
 void load_muscle_meshes(const CharacterFile& file, const fs::path& base, std::span<const ResolvedMuscle> muscles,
                         ContentSources& sources, CharacterAsset& asset, Diagnostics& diagnostics) {
-  std::shared_ptr<const GltfFile> gltf;
-  if (file.muscle_meshes.given()) {
-    gltf = sources.gltf(file.muscle_meshes.text, base, file.muscle_meshes.node, diagnostics);
-    if (!gltf) return;
-  }
+  MuscleMeshes meshes(file, base, sources, diagnostics);
+  if (!meshes.open()) return;
   for (const MuscleEntry& entry : file.muscles) {
-    if (!entry.mesh.given()) continue;
-    if (!gltf) {
-      entry.mesh.node.error(diagnostics,
-                            fmt::format("the mesh '{}' is named, but the file has no muscle_meshes", entry.mesh.text),
-                            "add \"muscle_meshes\": {\"file\": \"muscles.glb\"}, or leave out \"mesh\"");
-    } else if (gltf->find_mesh(entry.mesh.text) == nullptr) {
-      entry.mesh.node.error(diagnostics,
-                            fmt::format("'{}' has no mesh '{}'", file.muscle_meshes.text, entry.mesh.text),
-                            suggest_name(entry.mesh.text, names_of_meshes(*gltf), "meshes"));
-    }
+    if (entry.mesh.name.given()) meshes.check_name(entry.mesh.name);
   }
-  if (!gltf) return;
-  const auto load = [&](std::string_view name) -> std::shared_ptr<const TriangleMesh> {
-    const GltfMesh* mesh = gltf->find_mesh(name);
-    return mesh == nullptr ? nullptr
-                           : rest_space_mesh(*gltf, static_cast<std::size_t>(mesh - gltf->meshes.data()));
-  };
   for (const ResolvedMuscle& muscle : muscles) {
-    if (muscle.source != &file || !muscle.mesh.given()) continue;
-    std::shared_ptr<const TriangleMesh> mesh = load(muscle.mesh.text);
-    if (!mesh && muscle.mirror_axis >= 0) {
-      if (const auto original = load(muscle.mirrored_mesh.text)) mesh = reflect(*original, muscle.mirror_axis);
-    }
-    if (mesh) asset.muscle_meshes.emplace(muscle.description.name, std::move(mesh));
+    if (muscle.source != &file) continue;
+    if (auto mesh = meshes.find(muscle)) asset.muscle_meshes.emplace(muscle.description.name, std::move(mesh));
   }
 }
 

@@ -13,6 +13,55 @@ namespace fascicle::muscle {
 
 namespace {
 
+constexpr float kMillimetre = 1.0e-3f;  // m
+
+AreaEntry read_area(const JsonNode& node, const ReadContext& context) {
+  AreaEntry area;
+  JsonObject object(node, context.diagnostics);
+  float distance = 0.0f;
+  const bool of_bone = object.optional("within_mm", distance, kAreaRange);
+  const bool of_point = object.optional("radius_mm", distance, kAreaRange);
+  area.bone = read_name(object, "bone", false);
+  if (object.valid() && object.optional("within_mm").exists() == object.optional("radius_mm").exists()) {
+    node.error(context.diagnostics, of_bone ? "the area has both 'within_mm' and 'radius_mm'" : "the area has no size",
+               "give one: \"within_mm\", the mesh's distance from the bone, or \"radius_mm\", from this point");
+  } else if (of_point && area.bone.given()) {
+    area.bone.node.error(context.diagnostics, "'bone' means nothing beside 'radius_mm'",
+                         "leave it out, or give \"within_mm\"");
+  } else if (of_bone || of_point) {
+    area.node = node;
+    area.of_bone = of_bone;
+    area.within = kMillimetre * distance;
+  }
+  finish_object(object, "area", context);
+  return area;
+}
+
+MeshEntry read_mesh_entry(const JsonNode& node, const ReadContext& context) {
+  MeshEntry entry;
+  if (node.is_string()) {
+    if (!node.read(entry.name.text, context.diagnostics)) return entry;
+    if (entry.name.text.empty()) {
+      node.error(context.diagnostics, "'mesh' is empty", "give a name");
+      return entry;
+    }
+    entry.name.node = entry.node = node;
+    return entry;
+  }
+  if (!node.is_object()) {
+    node.error(context.diagnostics, "'mesh' is neither a name nor an object",
+               "name a mesh of \"muscle_meshes\", or give {\"file\": \"soleus.stl\", \"unit\": \"mm\"}");
+    return entry;
+  }
+  JsonObject object(node, context.diagnostics);
+  entry.file = read_name(object, "file", true);
+  read_unit(object, entry.unit);
+  read_placement(object, entry.transform);
+  finish_object(object, "mesh", context);
+  if (entry.file.given()) entry.node = node;
+  return entry;
+}
+
 AttachmentEntry read_attachment(const JsonNode& node, bool is_via, const ReadContext& context) {
   AttachmentEntry entry;
   entry.node = node;
@@ -24,7 +73,11 @@ AttachmentEntry read_attachment(const JsonNode& node, bool is_via, const ReadCon
       entry.position_node.read(position, context.diagnostics, kPositionRange)) {
     entry.position = position;
   }
-  if (is_via) object.optional("counts", entry.counts);
+  if (is_via) {
+    object.optional("counts", entry.counts);
+  } else if (const JsonNode area = object.optional("area"); area.exists()) {
+    entry.area = read_area(area, context);
+  }
   finish_object(object, is_via ? "via" : "attachment", context);
   return entry;
 }
@@ -107,8 +160,7 @@ NameEntry read_name(JsonObject& object, std::string_view field, bool required) {
   return entry;
 }
 
-void read_level(JsonObject& object, std::optional<std::uint32_t>& section_vertices,
-                std::optional<std::uint32_t>& longitudinal_subdivision) {
+void read_level(JsonObject& object, LevelEntry& level) {
   const JsonNode node = object.optional("section_vertices");
   std::uint32_t count = 0;
   if (node.exists() && node.read(count, object.diagnostics(), kSectionVerticesRange)) {
@@ -116,12 +168,22 @@ void read_level(JsonObject& object, std::optional<std::uint32_t>& section_vertic
       node.error(object.diagnostics(), fmt::format("{} vertices a section is odd: opposites would not exist", count),
                  fmt::format("give an even number, {} or {}", count - 1, count + 1));
     } else {
-      section_vertices = count;
+      level.section_vertices = count;
     }
   }
   std::uint32_t subdivision = 0;
   if (object.optional("longitudinal_subdivision", subdivision, kSubdivisionRange)) {
-    longitudinal_subdivision = subdivision;
+    level.longitudinal_subdivision = subdivision;
+  }
+  float distance = 0.0f;
+  if (object.optional("max_distance_mm", distance, kMaxDistanceRange)) {
+    if (level.section_vertices || level.longitudinal_subdivision) {
+      object.optional("max_distance_mm")
+          .error(object.diagnostics(), "'max_distance_mm' chooses the level, and it is given too",
+                 "leave out \"section_vertices\" and \"longitudinal_subdivision\", or this");
+    } else {
+      level.max_distance = kMillimetre * distance;
+    }
   }
 }
 
@@ -165,8 +227,9 @@ MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context) 
     thickness_known = thickness_known && count_errors() == before;
   }
   if (const JsonNode tendon = object.optional("tendon"); tendon.exists()) read_tendon(tendon, values, context);
-  read_level(object, entry.section_vertices, entry.longitudinal_subdivision);
-  entry.mesh = read_name(object, "mesh", false);
+  read_level(object, entry.level);
+  if (const JsonNode mesh = object.optional("mesh"); mesh.exists()) entry.mesh = read_mesh_entry(mesh, context);
+  object.optional("fit", entry.fit);
   if (const JsonNode groups = object.optional("groups"); groups.exists()) {
     groups.read(values.groups, context.diagnostics);
   }

@@ -74,13 +74,38 @@ MuscleDescription describe(const Resolver& resolver, const MuscleEntry& entry, c
                        std::optional<std::uint32_t> third, std::uint32_t otherwise) {
     return first ? *first : second ? *second : third.value_or(otherwise);
   };
-  description.section_vertices = pick(resolver.options.section_vertices, entry.section_vertices, file.section_vertices,
-                                      description.section_vertices);
+  description.section_vertices = pick(resolver.options.section_vertices, entry.level.section_vertices,
+                                      file.level.section_vertices, description.section_vertices);
   description.longitudinal_subdivision =
-      pick(resolver.options.longitudinal_subdivision, entry.longitudinal_subdivision, file.longitudinal_subdivision,
-           description.longitudinal_subdivision);
+      pick(resolver.options.longitudinal_subdivision, entry.level.longitudinal_subdivision,
+           file.level.longitudinal_subdivision, description.longitudinal_subdivision);
   if (description.specific_tension == 0.0f) description.specific_tension = file.specific_tension;
   return description;
+}
+
+// The bound by which the fit chooses the level, where no counts are given nearer to the muscle.
+std::optional<float> pick_max_distance(const Resolver& resolver, const MuscleEntry& entry) {
+  if (resolver.options.section_vertices || resolver.options.longitudinal_subdivision) return std::nullopt;
+  if (entry.level.section_vertices || entry.level.longitudinal_subdivision) return std::nullopt;
+  return entry.level.max_distance ? entry.level.max_distance : resolver.file.level.max_distance;
+}
+
+// An area's bone must be there; where no bone is named it is the attachment's.
+void check_areas(const Resolver& resolver, const MuscleEntry& entry) {
+  for (const AttachmentEntry& attachment : entry.attachments) {
+    if (attachment.area.bone.given()) look_up_bone(resolver, attachment.area.bone);
+  }
+}
+
+// What both sides of a muscle share.
+ResolvedMuscle resolve_common(const Resolver& resolver, const MuscleEntry& entry) {
+  ResolvedMuscle muscle;
+  muscle.source = &resolver.file;
+  muscle.mesh = entry.mesh;
+  muscle.areas = {entry.attachments.front().area, entry.attachments.back().area};
+  muscle.fit = resolver.file.fit && entry.fit;
+  muscle.max_distance = pick_max_distance(resolver, entry);
+  return muscle;
 }
 
 // False where a muscle of that name is there already.
@@ -139,16 +164,16 @@ void add_mirror_image(const Resolver& resolver, const MuscleEntry& entry, std::s
   const bool fresh = claim_name(resolver, *name, entry.name.node, true);
   const std::vector<PlacedAttachment> mirrored = mirror_line(resolver, line);
   if (!fresh || mirrored.empty() || !entry.sound) return;
-  ResolvedMuscle muscle;
-  muscle.source = &resolver.file;
+  ResolvedMuscle muscle = resolve_common(resolver, entry);
   muscle.description = describe(resolver, entry, *name, mirrored, false);
   for (std::string& group : muscle.description.groups) group = mirror_name(group, rule.names).value_or(group);
   muscle.mirror_axis = rule.axis;
-  if (entry.mesh.given()) {
-    muscle.mirrored_mesh = entry.mesh;
-    muscle.mesh = {mirror_name(entry.mesh.text, rule.names).value_or(entry.mesh.text), entry.mesh.node};
-    muscle.description.mesh = muscle.mesh.text;
+  for (AreaEntry& area : muscle.areas) area.bone.text = mirror_name(area.bone.text, rule.bones).value_or(area.bone.text);
+  if (entry.mesh.name.given()) {
+    muscle.mirrored_mesh = entry.mesh.name;
+    muscle.mesh.name.text = mirror_name(entry.mesh.name.text, rule.names).value_or(entry.mesh.name.text);
   }
+  muscle.description.mesh = muscle.mesh.name.given() ? muscle.mesh.name.text : muscle.mesh.file.text;
   muscles.push_back(std::move(muscle));
 }
 
@@ -161,13 +186,12 @@ void resolve_muscles(const CharacterFile& file, const Skeleton& skeleton, const 
   for (const MuscleEntry& entry : file.muscles) {
     const bool fresh = !entry.name.given() || claim_name(resolver, entry.name.text, entry.name.node, false);
     const std::vector<PlacedAttachment> line = place_attachments(resolver, entry);
+    check_areas(resolver, entry);
     const bool sane = !line.empty() && check_attachments(line, entry.values, skeleton, file.mirror, diagnostics);
     if (sane && fresh && entry.sound) {
-      ResolvedMuscle muscle;
-      muscle.source = &file;
+      ResolvedMuscle muscle = resolve_common(resolver, entry);
       muscle.description = describe(resolver, entry, entry.name.text, line, true);
-      muscle.mesh = entry.mesh;
-      muscle.description.mesh = entry.mesh.text;
+      muscle.description.mesh = entry.mesh.name.given() ? entry.mesh.name.text : entry.mesh.file.text;
       muscles.push_back(std::move(muscle));
     }
     if (entry.mirror && fresh && entry.name.given()) {

@@ -2,7 +2,9 @@
 // frames, levels and tensions filled in, the other side added, lines checked.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,12 @@ using MuscleNames = std::map<std::string, std::string>;
 struct ResolvedMuscle {
   MuscleDescription description;
   const CharacterFile* source = nullptr;
-  NameEntry mesh;          // as written; without a node: none
-  NameEntry mirrored_mesh; // mesh of the original, where this muscle is a mirror image
+  MeshEntry mesh;          // a mirror image's name is that of its own mesh
+  NameEntry mirrored_mesh; // of a mirror image: the original's mesh
   int mirror_axis = -1;    // of the reflection that made it, or -1
+  std::array<AreaEntry, 2> areas;      // at origin and insertion; bones' names are this side's
+  bool fit = true;
+  std::optional<float> max_distance;   // m: the fit chooses |C| and LSS
 };
 
 // Appends the muscles of one file, each mirrored one after its original, and all errors. `names` grows.

@@ -40,13 +40,15 @@ FieldLog fields_of(const std::map<std::string, JsonNode>& schemas) {
 
 // A file with one object of each kind, all empty, so that the readers ask for everything.
 constexpr std::string_view kEmptyCharacter = R"({ "skeleton": {}, "skin": {}, "bone_meshes": [{}], "muscle_meshes": {},
-  "mirror": {}, "level": {}, "muscles": [{ "origin": {}, "via": [{}], "insertion": {}, "profile": {}, "tendon": {} }] })";
+  "mirror": {}, "level": {}, "fit": {}, "muscles": [{ "origin": { "area": {} }, "via": [{}], "insertion": {},
+  "profile": {}, "tendon": {}, "mesh": {} }] })";
 constexpr std::string_view kEmptyScene = R"({ "characters": [{ "animation": {} }], "camera": {} })";
 
 const std::map<std::string, std::string> kKindOfPath = {
     {"", ""}, {"/skeleton", "skeleton"}, {"/skin", "skin"}, {"/bone_meshes/0", "bone_mesh"},
     {"/muscle_meshes", "muscle_meshes"}, {"/mirror", "mirror"}, {"/level", "level"}, {"/muscles/0", "muscle"},
     {"/muscles/0/origin", "attachment"}, {"/muscles/0/insertion", "attachment"}, {"/muscles/0/via/0", "via"},
+    {"/muscles/0/origin/area", "area"}, {"/muscles/0/mesh", "mesh"}, {"/fit", "fit"},
     {"/muscles/0/profile", "profile"}, {"/muscles/0/tendon", "tendon"}, {"/characters/0", "scene_character"},
     {"/characters/0/animation", "animation"}, {"/camera", "camera"}};
 
