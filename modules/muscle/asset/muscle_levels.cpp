@@ -1,0 +1,386 @@
+#include "modules/muscle/asset/muscle_levels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "modules/muscle/kernels/mtu_kernels.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr float kSamePlace = 1.0e-5f;      // m
+constexpr double kMostRoll = 0.7;          // cosine of the angle between two levels' section directions
+constexpr float kSmallestError = 1.0e-6f;  // m
+
+std::vector<std::int32_t> points_by_slot(const MuscleAsset& asset) {
+  std::vector<std::int32_t> points(asset.slot_count, -1);
+  for (std::size_t i = 0; i < asset.points.size(); ++i) points[asset.points[i].slot] = static_cast<std::int32_t>(i);
+  return points;
+}
+
+// An asset with what building a morph looks up in it.
+struct Level {
+  const MuscleAsset& asset;
+  std::vector<std::int32_t> point_of_slot = points_by_slot(asset);
+
+  const PointBinding& binding(std::uint32_t slot) const {
+    return asset.points[static_cast<std::size_t>(point_of_slot[slot])];
+  }
+  const PointBinding& section(std::uint32_t m, std::uint32_t k) const { return binding(asset.slot(m, k)); }
+  const PointBinding& attachment(std::uint32_t m, std::uint32_t i) const {
+    const MuscleLayout& layout = asset.muscles[m];
+    return binding(layout.first_attachment_slot + layout.attachment_slot_step * i);
+  }
+  glm::dvec3 centre(std::uint32_t m, std::uint32_t k) const { return rest_point(asset, m, k); }
+  glm::dvec3 u(std::uint32_t m, std::uint32_t k) const {
+    const std::uint32_t slot = asset.slot(m, k);
+    return {asset.rest_ux[slot], asset.rest_uy[slot], asset.rest_uz[slot]};
+  }
+  glm::dvec3 v(std::uint32_t m, std::uint32_t k) const {
+    const std::uint32_t slot = asset.slot(m, k);
+    return {asset.rest_vx[slot], asset.rest_vy[slot], asset.rest_vz[slot]};
+  }
+  double radius(std::uint32_t m, std::uint32_t k, std::uint32_t i) const {
+    return double{asset.rest_radii[asset.radius(m, k) + i % asset.muscles[m].section_vertices]};
+  }
+  // The unit vector along which vertex i lies, in the frame of `u` and `v`.
+  glm::dvec3 along(std::uint32_t m, std::uint32_t i, const glm::dvec3& u_k, const glm::dvec3& v_k) const {
+    const MuscleLayout& layout = asset.muscles[m];
+    const Circle& circle = asset.circles[layout.circle];
+    const std::uint32_t turn = i % layout.section_vertices;
+    return double{circle.cosines[turn]} * u_k + double{circle.sines[turn]} * v_k;
+  }
+  glm::dvec3 vertex(std::uint32_t m, std::uint32_t k, std::uint32_t i) const {
+    return centre(m, k) + radius(m, k, i) * along(m, i, u(m, k), v(m, k));
+  }
+};
+
+// --- Do two levels belong together?
+
+bool same_binding(const PointBinding& a, const PointBinding& b) {
+  if (a.first_bone != b.first_bone || a.second_bone != b.second_bone) return false;
+  for (int i = 0; i < 4; ++i) {
+    if (std::abs(a.first[i] - b.first[i]) > kSamePlace || std::abs(a.second[i] - b.second[i]) > kSamePlace) return false;
+  }
+  return true;
+}
+
+// What keeps muscle `m` of the coarser level from being the same muscle as the finer level's; nothing where it is.
+std::optional<Diagnostic> find_mismatch(const Level& fine, const Level& coarse, std::uint32_t m) {
+  const MuscleLayout& a = fine.asset.muscles[m];
+  const MuscleLayout& b = coarse.asset.muscles[m];
+  const auto mismatch = [&](std::string cause, std::string remedy) {
+    return Diagnostic{.file = {}, .line = 0, .column = 0, .path = a.name, .cause = std::move(cause),
+                      .remedy = std::move(remedy)};
+  };
+  if (a.name != b.name) {
+    return mismatch(fmt::format("the coarser level has \"{}\" in its place", b.name),
+                    "build all levels from the same muscles in the same order");
+  }
+  bool same = a.attachment_count == b.attachment_count;
+  for (std::uint32_t i = 0; same && i < a.attachment_count; ++i) {
+    same = same_binding(fine.attachment(m, i), coarse.attachment(m, i));
+  }
+  if (!same) return mismatch("the coarser level has other attachments", "build all levels from the same muscles");
+  if (a.tendon_lengths != b.tendon_lengths) {
+    return mismatch("the coarser level has other tendons", "build all levels from the same muscles");
+  }
+  if (a.section_vertices != b.section_vertices && a.section_vertices != 2 * b.section_vertices) {
+    return mismatch(fmt::format("section_vertices goes from {} to {}", a.section_vertices, b.section_vertices),
+                    "keep it or halve it from one level to the next");
+  }
+  if (a.subdivision != b.subdivision && a.subdivision != b.subdivision + 1) {
+    return mismatch(fmt::format("longitudinal_subdivision goes from {} to {}", a.subdivision, b.subdivision),
+                    "keep it or lower it by one from one level to the next");
+  }
+  for (std::uint32_t i = 0; a.attachment_slot_step != 1 && i < a.attachment_count; ++i) {
+    if (same_binding(coarse.section(m, i << b.subdivision), coarse.attachment(m, i))) continue;
+    return mismatch("a fit has displaced the coarser level's sections but not this one's",
+                    "fit both levels or neither");
+  }
+  return std::nullopt;
+}
+
+// --- What the finer level becomes.
+
+// Of a section of the finer level: the coarser section that it becomes, or the one before it where it lies between two.
+struct Place {
+  std::uint32_t section = 0;
+  bool between = false;
+};
+Place coarse_place(const Level& fine, const Level& coarse, std::uint32_t m, std::uint32_t k) {
+  const bool halved = fine.asset.muscles[m].subdivision != coarse.asset.muscles[m].subdivision;
+  return halved ? Place{k / 2, k % 2 == 1} : Place{k, false};
+}
+
+// Adds a binding's share `weight` to `to`, which is carried by the same bones.
+void add_share(float weight, const PointBinding& from, PointBinding& to) {
+  const auto add = [&](std::uint32_t bone, const float* values) {
+    float* const sum = bone == to.first_bone ? to.first : to.second;
+    for (int i = 0; i < 4; ++i) sum[i] += weight * values[i];
+  };
+  add(from.first_bone, from.first);
+  if (from.second_bone != from.first_bone) add(from.second_bone, from.second);
+}
+
+std::vector<PointBinding> morph_points(const Level& fine, const Level& coarse) {
+  std::vector<PointBinding> points = fine.asset.points;  // attachments with slots of their own stay
+  for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
+    for (std::uint32_t k = 0; k < fine.asset.muscles[m].section_count; ++k) {
+      PointBinding& point = points[static_cast<std::size_t>(fine.point_of_slot[fine.asset.slot(m, k)])];
+      std::fill(std::begin(point.first), std::end(point.first), 0.0f);
+      std::fill(std::begin(point.second), std::end(point.second), 0.0f);
+      const Place place = coarse_place(fine, coarse, m, k);
+      add_share(place.between ? 0.5f : 1.0f, coarse.section(m, place.section), point);
+      if (place.between) add_share(0.5f, coarse.section(m, place.section + 1), point);
+    }
+  }
+  return points;
+}
+
+std::vector<EndFrame> morph_ends(const MuscleAsset& fine, const MuscleAsset& coarse) {
+  std::vector<EndFrame> ends = fine.ends;
+  for (std::uint32_t m = 0; m < fine.size(); ++m) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      ends[std::size_t{2} * fine.muscles[m].lane_index + end] =
+          coarse.ends[std::size_t{2} * coarse.muscles[m].lane_index + end];
+    }
+  }
+  return ends;
+}
+
+// The morphed level's action lines and frames at rest, by the finer asset's slots.
+struct MorphedLines {
+  AlignedVector<float> x, y, z, ux, uy, uz, vx, vy, vz;
+
+  MorphedLines(const Level& fine, const Level& coarse)
+      : x(fine.asset.rest_x), y(fine.asset.rest_y), z(fine.asset.rest_z) {
+    const MuscleAsset& asset = fine.asset;
+    for (AlignedVector<float>* array : {&ux, &uy, &uz, &vx, &vy, &vz}) array->assign(asset.slot_count, 0.0f);
+    // Nobody knows the rest bones any more, but what they make of the ends: the coarser level's own directions.
+    const std::array<float, 16> still = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    std::vector<EndFrame> ends(std::size_t{2} * asset.lane_count);
+    for (std::uint32_t m = 0; m < asset.size(); ++m) {
+      const MuscleLayout& layout = asset.muscles[m];
+      for (std::uint32_t k = 0; k < layout.section_count; ++k) {
+        const Place place = coarse_place(fine, coarse, m, k);
+        glm::dvec3 centre = coarse.centre(m, place.section);
+        if (place.between) centre = 0.5 * (centre + coarse.centre(m, place.section + 1));
+        const std::uint32_t slot = asset.slot(m, k);
+        x[slot] = static_cast<float>(centre.x);
+        y[slot] = static_cast<float>(centre.y);
+        z[slot] = static_cast<float>(centre.z);
+      }
+      for (std::size_t end = 0; end < 2; ++end) {
+        const std::uint32_t k = end == 0 ? 0 : coarse.asset.muscles[m].section_count - 1;
+        const glm::dvec3 u = coarse.u(m, k), t = glm::cross(u, coarse.v(m, k));
+        EndFrame& frame = ends[std::size_t{2} * layout.lane_index + end];
+        for (int i = 0; i < 3; ++i) {
+          frame.tangent[i] = static_cast<float>(t[i]);
+          frame.reference[i] = static_cast<float>(u[i]);
+        }
+      }
+    }
+    AlignedVector<float> arc(asset.slot_count), twist(asset.lane_count, 0.0f);
+    BuildFramesJob job;
+    job.bones = still.data();
+    job.blocks = asset.blocks.data();
+    job.block_count = asset.blocks.size();
+    job.ends = ends.data();
+    job.restart_twist = true;
+    job.x = x.data();
+    job.y = y.data();
+    job.z = z.data();
+    job.ux = ux.data();
+    job.uy = uy.data();
+    job.uz = uz.data();
+    job.vx = vx.data();
+    job.vy = vy.data();
+    job.vz = vz.data();
+    job.arc = arc.data();
+    job.twist = twist.data();
+    mtu_kernels(SimdLevel::kPortable).build_frames(job);
+  }
+};
+
+// The radius at the angle half way between two neighbours' on the chord between them, `half` rad from either. Where
+// they have different signs no radius leads to the chord; then the one nearest to it.
+double chord_radius(double a, double b, double half) {
+  if (a * b <= 0.0) return std::cos(half) * (std::abs(a) < std::abs(b) ? a : b);
+  return 2.0 * a * b * std::cos(half) / (a + b);
+}
+
+// Where the line origin + r direction meets a triangle.
+std::optional<double> meet_triangle(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a,
+                                    const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(direction, ac), to = origin - a;
+  const double determinant = glm::dot(ab, p);
+  if (std::abs(determinant) < 1.0e-18) return std::nullopt;
+  const double s = glm::dot(to, p) / determinant;
+  const glm::dvec3 q = glm::cross(to, ab);
+  const double t = glm::dot(direction, q) / determinant;
+  constexpr double kRim = 1.0e-9;
+  if (s < -kRim || t < -kRim || s + t > 1.0 + kRim) return std::nullopt;
+  return glm::dot(ac, q) / determinant;
+}
+
+// The radius that leads from `centre`, between coarse sections K and K + 1, along `direction` onto the surface between
+// them, where vertex j or the side after it lies. Where nothing is met: nearest to that place.
+double strip_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, std::uint32_t j, bool side,
+                    const glm::dvec3& centre, const glm::dvec3& direction) {
+  const std::uint32_t count = coarse.asset.muscles[m].section_vertices;
+  const glm::dvec3 place = 0.5 * (coarse.vertex(m, K, j) + coarse.vertex(m, K + 1, side ? j + 1 : j));
+  const double expected = glm::dot(place - centre, direction);
+  double best = expected, best_off = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = j + count - 1; i <= j + count + 1; ++i) {
+    const glm::dvec3 a = coarse.vertex(m, K, i), b = coarse.vertex(m, K, i + 1);
+    const glm::dvec3 c = coarse.vertex(m, K + 1, i), d = coarse.vertex(m, K + 1, i + 1);
+    for (const std::optional<double> r : {meet_triangle(centre, direction, a, b, d),
+                                          meet_triangle(centre, direction, a, d, c)}) {
+      if (!r || std::abs(*r - expected) >= best_off) continue;
+      best = *r;
+      best_off = std::abs(*r - expected);
+    }
+  }
+  return best;
+}
+
+// Radii, and how far they move the surface at rest.
+void morph_radii(const Level& fine, const Level& coarse, LevelMorph& morph) {
+  const MorphedLines lines(fine, coarse);
+  morph.radii = fine.asset.rest_radii;
+  double error = 0.0;
+  for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
+    const MuscleLayout& layout = fine.asset.muscles[m];
+    const std::uint32_t count = layout.section_vertices;
+    const std::uint32_t ratio = count / coarse.asset.muscles[m].section_vertices;
+    for (std::uint32_t k = 0; k < layout.section_count; ++k) {
+      const Place place = coarse_place(fine, coarse, m, k);
+      const std::uint32_t slot = fine.asset.slot(m, k);
+      const glm::dvec3 centre(lines.x[slot], lines.y[slot], lines.z[slot]);
+      const glm::dvec3 u(lines.ux[slot], lines.uy[slot], lines.uz[slot]);
+      const glm::dvec3 v(lines.vx[slot], lines.vy[slot], lines.vz[slot]);
+      float* const radii = &morph.radii[fine.asset.radius(m, k)];
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t j = i / ratio;
+        const bool side = i % ratio != 0;
+        const glm::dvec3 direction = fine.along(m, i, u, v);
+        double r = coarse.radius(m, place.section, j);
+        if (place.between) {
+          r = strip_radius(coarse, m, place.section, j, side, centre, direction);
+        } else if (side) {
+          r = chord_radius(r, coarse.radius(m, place.section, j + 1), 3.14159265358979323846 / count);
+        }
+        radii[i] = static_cast<float>(r);
+        error = std::max(error, std::abs(glm::dot(centre + r * direction - fine.vertex(m, k, i), direction)));
+      }
+      for (std::uint32_t i = count; i < layout.radius_stride; ++i) radii[i] = radii[i % count];
+    }
+  }
+  morph.error = static_cast<float>(error);
+}
+
+// A muscle that morphs while its sections turn.
+std::optional<Diagnostic> find_roll(const Level& fine, const Level& coarse, std::uint32_t m) {
+  const MuscleLayout& a = fine.asset.muscles[m];
+  const double cosine = std::min(glm::dot(fine.u(m, 0), coarse.u(m, 0)),
+                                 glm::dot(fine.u(m, a.section_count - 1),
+                                          coarse.u(m, coarse.asset.muscles[m].section_count - 1)));
+  if (cosine > kMostRoll) return std::nullopt;
+  return Diagnostic{.file = {}, .line = 0, .column = 0, .path = a.name,
+                    .cause = fmt::format("its sections turn by {:.0f} degrees from a level to the next coarser one",
+                                         std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951),
+                    .remedy = "move its first or last via point a little, so that all levels start alike"};
+}
+
+void find_extent(const MuscleAsset& asset, MuscleLevels& levels) {
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+  for (std::uint32_t m = 0; m < asset.size(); ++m) {
+    for (std::uint32_t k = 0; k < asset.muscles[m].section_count; ++k) {
+      low = glm::min(low, rest_point(asset, m, k));
+      high = glm::max(high, rest_point(asset, m, k));
+    }
+  }
+  const glm::vec3 middle = 0.5f * (low + high);
+  const auto place_of = [&](const PointBinding& point) {
+    return glm::vec3(asset.rest_x[point.slot], asset.rest_y[point.slot], asset.rest_z[point.slot]);
+  };
+  if (asset.points.empty()) return;
+  levels.anchor = *std::min_element(asset.points.begin(), asset.points.end(),
+                                    [&](const PointBinding& a, const PointBinding& b) {
+                                      return glm::distance(place_of(a), middle) < glm::distance(place_of(b), middle);
+                                    });
+  const glm::vec3 anchor = place_of(levels.anchor);
+  for (std::uint32_t m = 0; m < asset.size(); ++m) {
+    const MuscleLayout& layout = asset.muscles[m];
+    for (std::uint32_t k = 0; k < layout.section_count; ++k) {
+      const float* radii = &asset.rest_radii[asset.radius(m, k)];
+      const auto larger = [](float a, float b) { return std::abs(a) < std::abs(b); };
+      const float widest = std::abs(*std::max_element(radii, radii + layout.section_vertices, larger));
+      levels.radius = std::max(levels.radius, glm::distance(anchor, rest_point(asset, m, k)) + widest);
+    }
+  }
+}
+
+}  // namespace
+
+MuscleLevel coarser_level(MuscleLevel level) {
+  const std::uint32_t half = level.section_vertices / 2;
+  if (level.section_vertices % 2 == 0 && half % 2 == 0 && half >= 6) level.section_vertices = half;
+  if (level.longitudinal_subdivision > 0) --level.longitudinal_subdivision;
+  return level;
+}
+
+Result<std::shared_ptr<const MuscleLevels>> make_muscle_levels(
+    std::span<const std::shared_ptr<const MuscleAsset>> finest_first) {
+  assert(!finest_first.empty() && std::find(finest_first.begin(), finest_first.end(), nullptr) == finest_first.end());
+  Diagnostics found;
+  const auto levels = std::make_shared<MuscleLevels>();
+  levels->assets.assign(finest_first.begin(), finest_first.end());
+  double total = 0.0;
+  for (std::size_t i = 0; i + 1 < finest_first.size(); ++i) {
+    const Level fine{*finest_first[i]}, coarse{*finest_first[i + 1]};
+    if (fine.asset.size() != coarse.asset.size()) {
+      return Diagnostic{.file = {}, .line = 0, .column = 0, .path = fmt::format("level {}", i + 1),
+                        .cause = fmt::format("{} muscles; the next finer level has {}", coarse.asset.size(),
+                                             fine.asset.size()),
+                        .remedy = "build all levels from the same muscles in the same order"};
+    }
+    for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
+      if (auto mismatch = find_mismatch(fine, coarse, m)) {
+        found.errors.push_back(std::move(*mismatch));
+      } else if (auto roll = find_roll(fine, coarse, m)) {
+        found.warnings.push_back(std::move(*roll));
+      }
+    }
+    if (!found.ok()) return found;
+    LevelMorph& morph = levels->morphs.emplace_back();
+    morph.points = morph_points(fine, coarse);
+    morph.ends = morph_ends(fine.asset, coarse.asset);
+    morph_radii(fine, coarse, morph);
+    total += double{std::max(morph.error, kSmallestError)};
+    const float before = i == 0 ? 0.0f : kMorphBand * levels->morphs[i - 1].complete;
+    morph.complete = std::max(static_cast<float>(total), before);
+  }
+  find_extent(*finest_first.front(), *levels);
+  return {std::shared_ptr<const MuscleLevels>(levels), std::move(found)};
+}
+
+std::size_t heap_bytes(const MuscleLevels& levels) {
+  std::size_t sum = levels.assets.capacity() * sizeof(levels.assets[0]) +
+                    levels.morphs.capacity() * sizeof(levels.morphs[0]);
+  for (const LevelMorph& morph : levels.morphs) {
+    sum += morph.points.capacity() * sizeof(PointBinding) + morph.ends.capacity() * sizeof(EndFrame) +
+           morph.radii.capacity() * sizeof(float);
+  }
+  return sum;
+}
+
+}  // namespace fascicle::muscle
