@@ -1,62 +1,33 @@
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "engine/animation/skeleton.hpp"
-#include "engine/content/closest_name.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/content/character_asset.hpp"
-#include "modules/muscle/content/find_content.hpp"
 #include "tools/fascicle_cook/commands.hpp"
+#include "tools/fascicle_cook/find_character.hpp"
 
 namespace fascicle::cook {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::array<std::uint32_t, 3> kSubdivisions{0, 1, 2};
 constexpr std::array<std::uint32_t, 5> kSectionVertices{6, 8, 10, 12, 36};
 
-fs::path find_character(const std::string& name_or_path) {
-  const fs::path given(name_or_path);
-  std::error_code error;
-  if (given.extension() == ".json" || fs::is_regular_file(given, error)) return given;
-  return muscle::find_content_folder() / "characters" / given / (given.filename().string() + ".character.json");
-}
-
-// The characters that can be given by name.
-std::vector<std::string> known_characters() {
-  std::vector<std::string> names;
-  std::error_code error;
-  const fs::path folder = muscle::find_content_folder() / "characters";
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (fs::is_regular_file(find_character(name), error)) names.push_back(name);
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
 int print_counts(const std::string& name) {
-  const fs::path file = find_character(name);
-  if (std::error_code error; !fs::exists(file, error)) {
-    const std::vector<std::string> known = known_characters();
-    fmt::print(stderr, "{}: no such character, nor such a file; {}\n", name,
-               suggest_name(name, std::span<const std::string>(known), "characters"));
+  const auto file = find_character(name);
+  if (!file) {
+    print_diagnostics(file.diagnostics());
     return kErrors;
   }
-  const auto character = muscle::load_character(file);
-  for (const Diagnostic& error : character.diagnostics().errors) fmt::print(stderr, "{}\n", to_string(error));
+  const auto character = muscle::load_character(*file);
+  print_diagnostics(character.diagnostics());
   if (!character) return kErrors;
   std::vector<muscle::MuscleDescription> descriptions = (*character)->descriptions;
   std::size_t via = 0;
@@ -79,7 +50,7 @@ int print_counts(const std::string& name) {
       }
       const auto asset = muscle::build_muscle_asset(descriptions, (*character)->skeleton->rest_world);
       if (!asset) {
-        for (const Diagnostic& error : asset.diagnostics().errors) fmt::print(stderr, "{}\n", to_string(error));
+        print_diagnostics(asset.diagnostics());
         return kErrors;
       }
       const muscle::MuscleCounts counts = muscle::count_muscles(**asset);

@@ -10,6 +10,7 @@
 #include "modules/muscle/import/import_osim.hpp"
 #include "modules/muscle/import/osim_reader.hpp"
 #include "tools/fascicle_cook/commands.hpp"
+#include "tools/fascicle_cook/find_character.hpp"
 
 namespace fascicle::cook {
 namespace {
@@ -22,11 +23,6 @@ struct Options {
   std::string geometry;
   muscle::ImportOptions import;
 };
-
-void print(const Diagnostics& diagnostics) {
-  for (const Diagnostic& error : diagnostics.errors) fmt::print(stderr, "{}\n", to_string(error));
-  for (const Diagnostic& warning : diagnostics.warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
-}
 
 // How a character file in `from` names files in `folder`: by data: where they are in the data folder, else relatively.
 std::string prefix_of(const fs::path& folder, const fs::path& from) {
@@ -44,7 +40,7 @@ std::string prefix_of(const fs::path& folder, const fs::path& from) {
 int import_osim(Options options) {
   const fs::path model_file(options.model);
   Result<muscle::OsimModel> model = muscle::read_osim(model_file);
-  print(model.diagnostics());
+  print_diagnostics(model.diagnostics());
   if (!model) return kErrors;
 
   const std::string stem = model_file.stem().string();
@@ -54,10 +50,10 @@ int import_osim(Options options) {
       options.geometry.empty() ? model_file.parent_path() / "Geometry" : fs::path(options.geometry);
   options.import.geometry_prefix = prefix_of(options.import.geometry_folder, fs::absolute(out).parent_path());
   const Result<std::string> text = muscle::import_character(*model, options.import);
-  print(text.diagnostics());
+  print_diagnostics(text.diagnostics());
   if (!text) return kErrors;
   const Diagnostics written = write_text_atomically(out, *text);
-  print(written);
+  print_diagnostics(written);
   if (!written.ok()) return kErrors;
   fmt::print("{}: {} bodies, {} coordinates, {} bone meshes, {} muscles\n", out.string(),
              model->joints.skeleton->size() - 1, model->joints.coordinates.size(), model->geometry.size(),
