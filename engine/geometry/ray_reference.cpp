@@ -36,6 +36,7 @@ void cast_lines_reference(const TriangleMesh& mesh, std::span<const Line> lines,
     for_each_crossing(mesh, lines[i], [&](float t, std::uint32_t, bool exit) {
       if (exit) found.last_exit = std::max(found.last_exit, t);
       else found.first_entry = std::min(found.first_entry, t);
+      ++found.crossings;
     });
     extremes[i] = found;
   }

@@ -22,6 +22,7 @@ constexpr float kSamePlace = 1.0e-6f;
 struct ExtremesContext {
   RTCIntersectContext embree;
   std::array<float, kPacket> entries, exits;
+  std::array<std::uint32_t, kPacket> counts;
 };
 struct CrossingsContext {
   RTCIntersectContext embree;
@@ -49,6 +50,7 @@ void record_extremes(const RTCFilterFunctionNArguments* offered) {
   for_each_hit(offered, [&](unsigned int id, float t, std::uint32_t, bool exit) {
     if (exit) context.exits[id] = std::max(context.exits[id], t);
     else context.entries[id] = std::min(context.entries[id], t);
+    ++context.counts[id];
   });
 }
 
@@ -197,9 +199,10 @@ void RayScene::cast(std::span<const Line> lines, std::span<LineExtremes> extreme
     const std::size_t count = std::min<std::size_t>(kPacket, lines.size() - first);
     context.entries.fill(LineExtremes{}.first_entry);
     context.exits.fill(LineExtremes{}.last_exit);
+    context.counts.fill(0);
     const std::array<float, kPacket> starts = impl_->cast_packet(lines.subspan(first, count), context.embree);
     for (std::size_t i = 0; i < count; ++i) {
-      extremes[first + i] = {starts[i] + context.entries[i], starts[i] + context.exits[i]};
+      extremes[first + i] = {starts[i] + context.entries[i], starts[i] + context.exits[i], context.counts[i]};
     }
   }
 }

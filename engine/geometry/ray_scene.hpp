@@ -36,6 +36,7 @@ struct Line {
 struct LineExtremes {
   float first_entry = std::numeric_limits<float>::infinity();  // m; infinity: none
   float last_exit = -std::numeric_limits<float>::infinity();   // m; minus infinity: none
+  std::uint32_t crossings = 0;  // at least as many as there are: those at shared edges may count twice
 };
 
 struct LineCrossing {

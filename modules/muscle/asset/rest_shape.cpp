@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 
 #include "modules/muscle/asset/check_descriptions.hpp"
+#include "modules/muscle/asset/rest_reference.hpp"
 #include "modules/muscle/kernels/mtu_kernels.hpp"
 
 namespace fascicle::muscle {
@@ -59,15 +60,13 @@ void build_rest_frames(const MuscleAsset& asset, std::span<const glm::mat4> rest
   mtu_kernels(SimdLevel::kPortable).build_frames(job);
 }
 
-// A direction square to `tangent`: forward (z) or, for lines that run forward, up (y).
-glm::dvec3 square_direction(const glm::dvec3& tangent) {
-  const glm::dvec3 axis = std::abs(tangent.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
-  return glm::normalize(axis - glm::dot(axis, tangent) * tangent);
+glm::dmat3 turn_of(std::int32_t bone, std::span<const glm::mat4> rest_bones) {
+  return glm::dmat3(glm::dmat4(rest_bones[static_cast<std::size_t>(bone)]));
 }
 
 void set_end(const glm::dvec3& tangent, const glm::dvec3& reference, std::int32_t bone,
              std::span<const glm::mat4> rest_bones, EndFrame& end) {
-  const glm::dmat3 to_bone = glm::inverse(glm::dmat3(glm::dmat4(rest_bones[static_cast<std::size_t>(bone)])));
+  const glm::dmat3 to_bone = glm::inverse(turn_of(bone, rest_bones));
   const glm::dvec3 t = to_bone * tangent, u = to_bone * reference;
   for (int i = 0; i < 3; ++i) {
     end.tangent[i] = static_cast<float>(t[i]);
@@ -89,8 +88,10 @@ void set_end_frames(std::span<const MuscleDescription> descriptions, std::span<c
     const glm::dvec3 finish =
         glm::normalize(glm::dvec3(rest_point(asset, m, last)) - glm::dvec3(rest_point(asset, m, last - 1)));
     EndFrame* ends = &asset.ends[std::size_t{2} * muscle.lane_index];
-    set_end(start, square_direction(start), descriptions[m].attachments.front().bone, rest_bones, ends[0]);
-    set_end(finish, square_direction(finish), descriptions[m].attachments.back().bone, rest_bones, ends[1]);
+    const std::int32_t origin = descriptions[m].attachments.front().bone;
+    const std::int32_t insertion = descriptions[m].attachments.back().bone;
+    set_end(start, rest_reference(turn_of(origin, rest_bones), start), origin, rest_bones, ends[0]);
+    set_end(finish, rest_reference(turn_of(insertion, rest_bones), finish), insertion, rest_bones, ends[1]);
   }
   build_rest_frames(asset, rest_bones, state);
   for (std::uint32_t m = 0; m < asset.size(); ++m) {

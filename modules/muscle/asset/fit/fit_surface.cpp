@@ -1,0 +1,122 @@
+#include "modules/muscle/asset/fit/fit_surface.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "engine/geometry/mesh_measures.hpp"
+#include "engine/geometry/winding_number.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr int kSamplesAlongLine = 48;  // at least, over the mesh's size, where the winding number must be sampled
+constexpr int kBisections = 24;
+
+
+}  // namespace
+
+// The field, made when it is first asked for: a sound mesh hardly ever needs it.
+struct FitSurface::Winding {
+  std::once_flag made;
+  std::optional<WindingField> field;
+};
+
+FitSurface::FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound)
+    : mesh_(mesh), scene_(std::move(scene)), sound_(sound), winding_(std::make_unique<Winding>()) {
+  const Bounds bounds = mesh_bounds(mesh);
+  middle_ = 0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper));
+  reach_ = 0.51 * double{bounds.diagonal()};
+}
+
+FitSurface::~FitSurface() = default;
+
+bool FitSurface::contains(const glm::dvec3& point) const {
+  std::call_once(winding_->made, [&] { winding_->field.emplace(mesh_); });
+  return winding_->field->inside(point);
+}
+
+void FitSurface::append_by_winding(const Line& line, std::span<const LineCrossing> crossings,
+                                   std::vector<InsideInterval>& intervals) const {
+  const glm::dvec3 origin = line.origin, direction = line.direction;
+  const auto inside = [&](double t) { return contains(origin + t * direction); };
+  const double start = glm::dot(middle_ - origin, direction) - reach_, end = start + 2.0 * reach_;
+  const std::size_t first = intervals.size();
+  const auto add = [&](double from, double to) {
+    if (intervals.size() > first && from <= intervals.back().to) intervals.back().to = to;
+    else intervals.push_back({from, to});
+  };
+  // Between two crossings the winding number has no jumps: it is sampled, and bisected where it passes one half.
+  double from = start;
+  for (std::size_t i = 0; i <= crossings.size(); ++i) {
+    const double to = i < crossings.size() ? std::clamp(double{crossings[i].t}, from, end) : end;
+    const int samples = 1 + static_cast<int>((to - from) / (2.0 * reach_) * kSamplesAlongLine);
+    double last = from;
+    bool last_inside = false;
+    for (int s = 0; s < samples; ++s) {
+      const double t = from + (to - from) * (s + 0.5) / samples;
+      const bool here = inside(t);
+      double change = s == 0 ? from : 0.5 * (last + t);
+      if (s > 0 && here != last_inside) {
+        double low = last, high = t;
+        for (int round = 0; round < kBisections; ++round) {
+          const double middle = 0.5 * (low + high);
+          (inside(middle) == last_inside ? low : high) = middle;
+        }
+        change = 0.5 * (low + high);
+      }
+      if (s > 0 && last_inside) add(last, here ? t : change);
+      if (here) add(s > 0 && !last_inside ? change : (s == 0 ? from : last), t);
+      last = t;
+      last_inside = here;
+    }
+    if (last_inside) add(last, to);
+    from = to;
+  }
+}
+
+void FitSurface::find_inside(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
+                             std::vector<InsideInterval>& intervals) const {
+  std::vector<std::uint32_t> crossing_starts;
+  std::vector<LineCrossing> all;
+  scene_.cast_all(lines, crossing_starts, all);
+  starts.assign(1, 0);
+  intervals.clear();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::span<const LineCrossing> crossings =
+        std::span(all).subspan(crossing_starts[i], crossing_starts[i + 1] - crossing_starts[i]);
+    const std::size_t first = intervals.size();
+    int winding = 0;
+    bool counts = sound_;
+    for (const LineCrossing& crossing : crossings) {
+      winding += crossing.exit ? -1 : 1;
+      counts = counts && winding >= 0;
+      if (!counts) break;
+      if (!crossing.exit && winding == 1) intervals.push_back({crossing.t, crossing.t});
+      if (crossing.exit && winding == 0) intervals.back().to = crossing.t;
+    }
+    if (!counts || winding != 0) {  // a defect, or a line along an edge
+      intervals.resize(first);
+      append_by_winding(lines[i], crossings, intervals);
+    }
+    starts.push_back(static_cast<std::uint32_t>(intervals.size()));
+  }
+}
+
+void FitSurface::cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
+  if (sound_) return scene_.cast(lines, extremes);
+  std::vector<std::uint32_t> starts;
+  std::vector<InsideInterval> intervals;
+  find_inside(lines, starts, intervals);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    extremes[i] = {};
+    if (starts[i] == starts[i + 1]) continue;
+    extremes[i].first_entry = static_cast<float>(intervals[starts[i]].from);
+    extremes[i].last_exit = static_cast<float>(intervals[starts[i + 1] - 1].to);
+    extremes[i].crossings = 2 * (starts[i + 1] - starts[i]);
+  }
+}
+
+}  // namespace fascicle::muscle

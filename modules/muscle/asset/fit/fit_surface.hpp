@@ -1,0 +1,56 @@
+// The anatomical mesh as a fit sees it: what is inside along a line, also where the mesh has defects.
+//
+// Of a sound mesh the crossings of a line say all: it enters and leaves in turn. Where the mesh has holes, or parts
+// that are inside out, they do not; then the winding number decides, and inside is where it exceeds one half, so that a
+// line may enter or leave through a hole, where no triangle is.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/geometry/ray_scene.hpp"
+
+namespace fascicle::muscle {
+
+// A stretch of a line inside the mesh, by the line's t, m.
+struct InsideInterval {
+  double from = 0.0, to = 0.0;
+};
+
+class FitSurface {
+ public:
+  // Keeps a reference to the mesh. `sound`: closed, consistently turned, outward.
+  FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound);
+  ~FitSurface();
+
+  const TriangleMesh& mesh() const { return mesh_; }
+
+  // Where each line enters first and leaves last.
+  void cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const;
+
+  // The stretches of line i, by rising t: intervals[starts[i]] .. intervals[starts[i + 1]].
+  void find_inside(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
+                   std::vector<InsideInterval>& intervals) const;
+
+  // By winding number.
+  bool contains(const glm::dvec3& point) const;
+
+ private:
+  // The stretches of one line by winding number, given where it crosses the mesh.
+  void append_by_winding(const Line& line, std::span<const LineCrossing> crossings,
+                         std::vector<InsideInterval>& intervals) const;
+
+  struct Winding;
+  const TriangleMesh& mesh_;
+  RayScene scene_;
+  bool sound_;
+  glm::dvec3 middle_;
+  double reach_;  // m
+  std::unique_ptr<Winding> winding_;
+};
+
+}  // namespace fascicle::muscle
