@@ -66,17 +66,13 @@ ClosestPoints& ClosestPoints::operator=(ClosestPoints&&) noexcept = default;
 
 bool ClosestPoints::empty() const { return state_->tree.nodes.empty(); }
 
-ClosestPoint ClosestPoints::at(const glm::vec3& point, const ClosestPoint& guess) const {
+ClosestPoint ClosestPoints::at(const glm::vec3& point) const {
   const TriangleTree& tree = state_->tree;
   if (tree.nodes.empty() || !is_finite(point)) return {};
   const glm::dvec3 p(point);
-  // A little more than the guess's distance, so that the search finds the guess's own triangle again, unrounded.
   double nearest = std::numeric_limits<double>::max();
-  if (guess.triangle != ClosestPoint{}.triangle) {
-    nearest = square(p - glm::dvec3(guess.position)) * 1.001 + 1e-11 * square(glm::dvec3(guess.position)) + 1e-30;
-  }
-  glm::dvec3 best(guess.position);
-  std::uint32_t triangle = guess.triangle;
+  glm::dvec3 best(0.0);
+  std::uint32_t triangle = ClosestPoint{}.triangle;
 
   struct Waiting {
     std::uint32_t node;

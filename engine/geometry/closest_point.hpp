@@ -28,9 +28,7 @@ class ClosestPoints {
   bool empty() const;  // no triangle counts
 
   // Exact but for rounding. For a mesh without triangles, or a point that is not finite, a default ClosestPoint.
-  // `guess` is the answer for a point nearby: it makes the search shorter, never the answer another.
-  ClosestPoint at(const glm::vec3& point) const { return at(point, {}); }
-  ClosestPoint at(const glm::vec3& point, const ClosestPoint& guess) const;
+  ClosestPoint at(const glm::vec3& point) const;
 
  private:
   struct State;

@@ -78,11 +78,9 @@ Sums sum_distances(const std::vector<glm::vec3>& points, const ClosestPoints& to
                    const std::function<bool(const glm::vec3&)>& counts) {
   return parallel::ordered_sum(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
     Sums sums;
-    ClosestPoint found;
     for (std::size_t i = begin; i < end; ++i) {
       if (counts && !counts(points[i])) continue;
-      found = to.at(points[i], found);
-      const double distance = found.distance;
+      const double distance = to.at(points[i]).distance;
       sums += {distance * distance, distance, distance, 1};
     }
     return sums;

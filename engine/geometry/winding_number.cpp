@@ -15,7 +15,9 @@ namespace fascicle {
 namespace {
 
 // A node counts as its expansion where the point is this many radii away from its centre.
-constexpr double kFar = 2.3;
+constexpr double kFar = 3.0;
+// More than the field is ever wrong by at that distance.
+constexpr double kFieldError = 5e-3;
 
 double half_solid_angle(const glm::dvec3& point, const glm::dvec3& corner_a, const glm::dvec3& corner_b,
                         const glm::dvec3& corner_c) {
@@ -31,6 +33,7 @@ double half_solid_angle(const glm::dvec3& point, const glm::dvec3& corner_a, con
 // patch: n, n y, n y y / 2. As g's derivatives are symmetric, only the symmetric parts of the moments count.
 struct Expansion {
   glm::dvec3 centre{0.0};
+  double area = 0.0;          // m^2
   double far_square = 0.0;    // (kFar radius)^2
   glm::dvec3 normal{0.0};     // the integral of n
   std::array<double, 6> first{};    // of n_i y_j: xx yy zz, and xy xz yz doubled
@@ -56,50 +59,55 @@ double Expansion::at(const glm::dvec3& point) const {
           inverse * (15.0 * inverse * cubic - 9.0 * glm::dot(contracted, r)));
 }
 
-Expansion expand(const TriangleTree& tree, std::size_t begin, std::size_t end) {
-  Expansion e;
-  double area = 0.0;
-  glm::dvec3 weighted(0.0), mean(0.0);
-  for (std::size_t t = begin; t < end; ++t) {
-    const glm::dvec3 a = tree.triangles[t][0], b = tree.triangles[t][1], c = tree.triangles[t][2];
-    const double size = glm::length(glm::cross(b - a, c - a));
-    area += size;
-    weighted += size / 3.0 * (a + b + c);
-    mean += (a + b + c) / 3.0;
-  }
-  e.centre = area > 0.0 ? weighted / area : mean / static_cast<double>(end - begin);
-  for (std::size_t t = begin; t < end; ++t) {
-    std::array<glm::dvec3, 3> v;
-    for (std::size_t i = 0; i < 3; ++i) {
-      v[i] = glm::dvec3(tree.triangles[t][i]) - e.centre;
-      e.far_square = std::max(e.far_square, glm::dot(v[i], v[i]));
-    }
-    const glm::dvec3 n = 0.5 * glm::cross(v[1] - v[0], v[2] - v[0]), middle = (v[0] + v[1] + v[2]) / 3.0;
-    e.normal += n;
-    e.first[0] += n.x * middle.x;
-    e.first[1] += n.y * middle.y;
-    e.first[2] += n.z * middle.z;
-    e.first[3] += n.x * middle.y + n.y * middle.x;
-    e.first[4] += n.x * middle.z + n.z * middle.x;
-    e.first[5] += n.y * middle.z + n.z * middle.y;
-    // The mean of y_j y_k over a triangle is (the corners' sum of v_j v_k + 9 middle_j middle_k) / 12; halved.
-    const auto m = [&](int j, int k) {
-      return (v[0][j] * v[0][k] + v[1][j] * v[1][k] + v[2][j] * v[2][k] + 9.0 * middle[j] * middle[k]) / 24.0;
-    };
-    const double xx = m(0, 0), yy = m(1, 1), zz = m(2, 2), xy = m(0, 1), xz = m(0, 2), yz = m(1, 2);
-    e.second[0] += n.x * xx;
-    e.second[1] += n.y * yy;
-    e.second[2] += n.z * zz;
-    e.second[3] += n.y * xx + 2.0 * n.x * xy;
-    e.second[4] += n.z * xx + 2.0 * n.x * xz;
-    e.second[5] += n.x * yy + 2.0 * n.y * xy;
-    e.second[6] += n.z * yy + 2.0 * n.y * yz;
-    e.second[7] += n.x * zz + 2.0 * n.z * xz;
-    e.second[8] += n.y * zz + 2.0 * n.z * yz;
-    e.second[9] += 2.0 * (n.x * yz + n.y * xz + n.z * xy);
-  }
-  e.far_square *= kFar * kFar;
-  return e;
+// (a . r)(b . r) as a quadratic form's coefficients, added to `form`.
+void add_product(const glm::dvec3& a, const glm::dvec3& b, std::array<double, 6>& form) {
+  form[0] += a.x * b.x;
+  form[1] += a.y * b.y;
+  form[2] += a.z * b.z;
+  form[3] += a.x * b.y + a.y * b.x;
+  form[4] += a.x * b.z + a.z * b.x;
+  form[5] += a.y * b.z + a.z * b.y;
+}
+
+// form(r) (a . r), added to `cubic`.
+void add_product(const std::array<double, 6>& form, const glm::dvec3& a, std::array<double, 10>& cubic) {
+  cubic[0] += form[0] * a.x;
+  cubic[1] += form[1] * a.y;
+  cubic[2] += form[2] * a.z;
+  cubic[3] += form[0] * a.y + form[3] * a.x;
+  cubic[4] += form[0] * a.z + form[4] * a.x;
+  cubic[5] += form[1] * a.x + form[3] * a.y;
+  cubic[6] += form[1] * a.z + form[5] * a.y;
+  cubic[7] += form[2] * a.x + form[4] * a.z;
+  cubic[8] += form[2] * a.y + form[5] * a.z;
+  cubic[9] += form[3] * a.z + form[4] * a.y + form[5] * a.x;
+}
+
+// One triangle's moments about `centre`.
+void add_triangle(const std::array<glm::vec3, 3>& corners, Expansion& e) {
+  std::array<glm::dvec3, 3> v;
+  for (std::size_t i = 0; i < 3; ++i) v[i] = glm::dvec3(corners[i]) - e.centre;
+  const glm::dvec3 n = 0.5 * glm::cross(v[1] - v[0], v[2] - v[0]), middle = (v[0] + v[1] + v[2]) / 3.0;
+  e.normal += n;
+  add_product(n, middle, e.first);
+  // The mean of y y over a triangle is (the corners' sum of v v + 9 middle middle) / 12; here halved.
+  std::array<double, 6> square{};
+  for (const glm::dvec3& corner : v) add_product(corner / 24.0, corner, square);
+  add_product(9.0 / 24.0 * middle, middle, square);
+  add_product(square, n, e.second);
+}
+
+// The moments of a part that is expanded about another point: y + d, d from `whole`'s centre to `part`'s.
+void add_part(const Expansion& part, Expansion& whole) {
+  const glm::dvec3 d = part.centre - whole.centre;
+  whole.normal += part.normal;
+  for (std::size_t i = 0; i < 6; ++i) whole.first[i] += part.first[i];
+  for (std::size_t i = 0; i < 10; ++i) whole.second[i] += part.second[i];
+  add_product(part.normal, d, whole.first);
+  add_product(part.first, d, whole.second);
+  std::array<double, 6> square{};
+  add_product(0.5 * d, d, square);
+  add_product(square, part.normal, whole.second);
 }
 
 }  // namespace
@@ -123,9 +131,40 @@ struct WindingField::State {
   // Fills the expansions of a node and those below; returns where its triangles end.
   std::size_t fill(std::uint32_t index, std::size_t begin) {
     const TriangleTree::Node& node = tree.nodes[index];
-    const std::size_t end = node.count > 0 ? begin + node.count : fill(node.first, fill(index + 1, begin));
-    expansions[index] = expand(tree, begin, end);
+    const bool leaf = node.count > 0;
+    const std::size_t end = leaf ? begin + node.count : fill(node.first, fill(index + 1, begin));
+    Expansion& e = expansions[index];
+    glm::dvec3 weighted(0.0);
+    const auto weigh = [&](double area, const glm::dvec3& centre) {
+      e.area += area;
+      weighted += area * centre;
+    };
+    if (leaf) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const glm::dvec3 a = tree.triangles[t][0], b = tree.triangles[t][1], c = tree.triangles[t][2];
+        weigh(0.5 * glm::length(glm::cross(b - a, c - a)), (a + b + c) / 3.0);
+      }
+    } else {
+      for (const std::uint32_t child : {index + 1, node.first}) weigh(expansions[child].area, expansions[child].centre);
+    }
+    e.centre = e.area > 0.0 ? weighted / e.area : 0.5 * (glm::dvec3(node.lower) + glm::dvec3(node.upper));
+    if (leaf) {
+      for (std::size_t t = begin; t < end; ++t) add_triangle(tree.triangles[t], e);
+    } else {
+      for (const std::uint32_t child : {index + 1, node.first}) add_part(expansions[child], e);
+    }
+    for (std::size_t t = begin; t < end; ++t) {
+      for (const glm::dvec3 corner : tree.triangles[t]) {
+        e.far_square = std::max(e.far_square, kFar * kFar * glm::dot(corner - e.centre, corner - e.centre));
+      }
+    }
     return end;
+  }
+
+  double exact(const glm::dvec3& point) const {
+    double sum = 0.0;
+    for (const std::array<glm::vec3, 3>& t : tree.triangles) sum += half_solid_angle(point, t[0], t[1], t[2]);
+    return sum / (2.0 * std::numbers::pi);
   }
 };
 
@@ -139,6 +178,11 @@ WindingField::WindingField(const TriangleMesh& mesh) {
 WindingField::~WindingField() = default;
 WindingField::WindingField(WindingField&&) noexcept = default;
 WindingField& WindingField::operator=(WindingField&&) noexcept = default;
+
+bool WindingField::inside(const glm::dvec3& point) const {
+  const double about = at(point);
+  return (std::abs(about - 0.5) > kFieldError ? about : state_->exact(point)) > 0.5;
+}
 
 double WindingField::at(const glm::dvec3& point) const {
   const TriangleTree& tree = state_->tree;
