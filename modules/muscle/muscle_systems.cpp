@@ -2,6 +2,7 @@
 
 #include "engine/ecs/schedule.hpp"
 #include "modules/muscle/systems/1_drive/drive_action_lines.hpp"
+#include "modules/muscle/systems/1_drive/select_levels.hpp"
 #include "modules/muscle/systems/2_shape/build_frames.hpp"
 #include "modules/muscle/systems/2_shape/find_tendons.hpp"
 #include "modules/muscle/systems/5_present/measure_muscles.hpp"
@@ -10,7 +11,8 @@
 namespace fascicle::muscle {
 
 void add_muscle_systems(ecs::Schedule& schedule) {
-  // 1 drive: bones move the lines.
+  // 1 drive: the viewer's distance chooses the level of detail, bones move the lines.
+  schedule.add("select_levels", select_levels);
   schedule.add("drive_action_lines", drive_action_lines);
   // 2 shape: lines carry the sections.
   schedule.add("build_frames", build_frames);

@@ -9,11 +9,10 @@
 #include "engine/loop/cost_ledger.hpp"
 #include "engine/math/state_hash.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
-#include "modules/muscle/components/action_lines.hpp"
-#include "modules/muscle/components/cross_sections.hpp"
-#include "modules/muscle/components/muscle_measures.hpp"
+#include "modules/muscle/asset/muscle_levels.hpp"
+#include "modules/muscle/components/lay_out_state.hpp"
+#include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/components/musculature.hpp"
-#include "modules/muscle/components/tendons.hpp"
 #include "modules/muscle/systems/5_present/measure_muscles.hpp"
 #include "modules/muscle/systems/5_present/write_surfaces.hpp"
 #include "modules/muscle/systems/kernel_jobs.hpp"
@@ -22,65 +21,56 @@ namespace fascicle::muscle {
 namespace {
 
 // The systems whose time the ledger knows.
-constexpr std::array<std::string_view, 5> kTimedSystems = {"drive_action_lines", "build_frames", "find_tendons",
-                                                           "measure_muscles", "write_surfaces"};
-
-ActionLines rest_lines(const MuscleAsset& asset) {
-  ActionLines lines;
-  lines.x = asset.rest_x;
-  lines.y = asset.rest_y;
-  lines.z = asset.rest_z;
-  lines.held.assign(asset.size(), 0);
-  lines.held_lanes.assign(asset.lane_count, 0);
-  return lines;
-}
-
-CrossSections rest_sections(const MuscleAsset& asset) {
-  CrossSections sections;
-  sections.ux = asset.rest_ux;
-  sections.uy = asset.rest_uy;
-  sections.uz = asset.rest_uz;
-  sections.vx = asset.rest_vx;
-  sections.vy = asset.rest_vy;
-  sections.vz = asset.rest_vz;
-  sections.arc = asset.rest_arc;
-  sections.radii = asset.rest_radii;
-  sections.twist.assign(asset.lane_count, 0.0f);
-  return sections;
-}
-
-Tendons rest_tendons(const MuscleAsset& asset, const CrossSections& sections) {
-  Tendons tendons;
-  for (std::size_t end = 0; end < 2; ++end) {
-    tendons.segment[end].assign(asset.lane_count, 0);
-    tendons.fraction[end].assign(asset.lane_count, 0.0f);
-    tendons.arc[end].assign(asset.lane_count, 0.0f);
-  }
-  mtu_kernels(SimdLevel::kPortable).find_tendons(find_tendons_job(asset, sections, tendons));
-  return tendons;
-}
-
-MuscleMeasures empty_measures(std::size_t count) {
-  MuscleMeasures measures;
-  for (std::vector<float>* values : {&measures.length, &measures.drawn_length, &measures.volume, &measures.mass,
-                                     &measures.pcsa, &measures.force}) {
-    values->assign(count, 0.0f);
-  }
-  measures.tendon_point.assign(count, glm::vec3(0.0f));
-  return measures;
-}
-
-MuscleSurfaces empty_surfaces(const MuscleAsset& asset) {
-  MuscleSurfaces surfaces;
-  surfaces.vertices.assign(asset.vertex_count, SurfaceVertex{});
-  surfaces.rows.assign(asset.row_count, SurfaceRow{});
-  for (std::uint32_t row = 0; row < asset.row_count; ++row) surfaces.rows[row].muscle = asset.row_muscles[row];
-  return surfaces;
-}
+constexpr std::array<std::string_view, 6> kTimedSystems = {"select_levels", "drive_action_lines", "build_frames",
+                                                           "find_tendons",  "measure_muscles",    "write_surfaces"};
 
 template <class T>
 void hash_arrays(std::initializer_list<const AlignedVector<T>*> arrays, StateHash& hash) {
   for (const AlignedVector<T>* array : arrays) hash.add(std::span<const T>(*array));
+}
+
+// At rest at the first of the levels, with room for all of them.
+ecs::Entity spawn(ecs::World& world, ecs::Entity character,
+                  std::span<const std::shared_ptr<const MuscleAsset>> levels) {
+  const MuscleAsset& asset = *levels.front();
+  const ecs::Entity entity = world.create();
+  Musculature musculature;
+  musculature.asset = levels.front();
+  musculature.character = character;
+  musculature.attached.assign(asset.size(), 1);
+  for (std::uint32_t i = 0; i < asset.size(); ++i) {
+    const ecs::Entity muscle = world.create();
+    world.add(muscle, Muscle{.musculature = entity, .index = i});
+    musculature.muscles.push_back(muscle);
+  }
+
+  ActionLines lines;
+  CrossSections sections;
+  Tendons tendons;
+  MuscleMeasures measures;
+  MuscleSurfaces surfaces;
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    lay_out(*levels[level], lines);
+    lay_out(*levels[level], sections);
+    lay_out(*levels[level], surfaces);
+  }
+  lay_out(asset, tendons);
+  lay_out(asset, measures);
+  const MtuKernels& kernels = mtu_kernels(SimdLevel::kPortable);
+  kernels.find_tendons(find_tendons_job(asset, sections, tendons));
+  for (std::uint32_t i = 0; i < asset.size(); ++i) {
+    measure_muscle(musculature, lines, sections, tendons, kernels, i, measures);
+  }
+  kernels.write_surfaces(write_surfaces_job(sections_view(musculature, lines, sections, tendons), false, surfaces));
+  write_rows(asset, sections, tendons, surfaces);
+
+  world.add(entity, std::move(musculature));
+  world.add(entity, std::move(lines));
+  world.add(entity, std::move(sections));
+  world.add(entity, std::move(tendons));
+  world.add(entity, std::move(measures));
+  world.add(entity, std::move(surfaces));
+  return entity;
 }
 
 }  // namespace
@@ -89,40 +79,22 @@ void prepare_muscles(ecs::World& world, const MuscleSettings& settings) {
   MuscleSettings usable = settings;
   usable.simd = std::min(settings.simd, detect_simd());
   world.set_resource(usable);
+  if (world.try_resource<Viewer>() == nullptr) world.set_resource(Viewer{});
   if (world.try_resource<CostLedger>() == nullptr) world.set_resource(CostLedger{});
   for (const std::string_view system : kTimedSystems) world.resource<CostLedger>().add_system(system);
 }
 
 ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::shared_ptr<const MuscleAsset> asset) {
-  const ecs::Entity entity = world.create();
-  Musculature musculature;
-  musculature.character = character;
-  musculature.attached.assign(asset->size(), 1);
-  for (std::uint32_t i = 0; i < asset->size(); ++i) {
-    const ecs::Entity muscle = world.create();
-    world.add(muscle, Muscle{.musculature = entity, .index = i});
-    musculature.muscles.push_back(muscle);
-  }
-  musculature.asset = std::move(asset);
+  return spawn(world, character, std::span(&asset, 1));
+}
 
-  ActionLines lines = rest_lines(*musculature.asset);
-  CrossSections sections = rest_sections(*musculature.asset);
-  Tendons tendons = rest_tendons(*musculature.asset, sections);
-  MuscleMeasures measures = empty_measures(musculature.asset->size());
-  MuscleSurfaces surfaces = empty_surfaces(*musculature.asset);
-  const MtuKernels& kernels = mtu_kernels(SimdLevel::kPortable);
-  for (std::uint32_t i = 0; i < musculature.asset->size(); ++i) {
-    measure_muscle(musculature, lines, sections, tendons, kernels, i, measures);
-  }
-  kernels.write_surfaces(write_surfaces_job(sections_view(musculature, lines, sections, tendons), false, surfaces));
-  write_rows(*musculature.asset, sections, tendons, surfaces);
-
-  world.add(entity, std::move(musculature));
-  world.add(entity, std::move(lines));
-  world.add(entity, std::move(sections));
-  world.add(entity, std::move(tendons));
-  world.add(entity, std::move(measures));
-  world.add(entity, std::move(surfaces));
+ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::shared_ptr<const MuscleLevels> levels) {
+  const ecs::Entity entity = spawn(world, character, levels->assets);
+  if (levels->morphs.empty()) return entity;
+  const MuscleAsset& finest = *levels->assets.front();
+  world.get<Musculature>(entity).coarser = levels->morphs.data();
+  world.get<CrossSections>(entity).ends = finest.ends;
+  world.add(entity, MuscleDetail{.levels = std::move(levels), .twist = std::vector<float>(finest.size())});
   return entity;
 }
 

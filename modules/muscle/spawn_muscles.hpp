@@ -21,9 +21,11 @@ class World;
 namespace fascicle::muscle {
 
 struct MuscleAsset;
+struct MuscleLevels;
 
 // Must be called once per world before a schedule with muscle systems runs; again to change the settings. Gives the
-// world the resources MuscleSettings and, where it has none, CostLedger (engine/loop/cost_ledger.hpp).
+// world the resources MuscleSettings and, where it has none, Viewer (components/muscle_detail.hpp; nobody looks) and
+// CostLedger (engine/loop/cost_ledger.hpp).
 // A SIMD level that the processor lacks is lowered to the best it has.
 void prepare_muscles(ecs::World& world, const MuscleSettings& settings = {});
 
@@ -31,6 +33,10 @@ void prepare_muscles(ecs::World& world, const MuscleSettings& settings = {});
 // matrices by the time the systems run, and an entity for each muscle. Everything that frames need is allocated here.
 // Until the first step the state is the rest shape, in the rest bones' space.
 ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::shared_ptr<const MuscleAsset> asset);
+
+// The same with several levels of detail (asset/muscle_levels.hpp), the finest at first; `select_levels` goes by what
+// the world's resource Viewer sees of it. Surfaces and their indices change with the level.
+ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::shared_ptr<const MuscleLevels> levels);
 
 // Ends one muscle: its entity is destroyed, its surface collapses to its origin's place and draws nothing, its
 // measures are zero. The others go on. No effect on an entity that is not a muscle.
@@ -47,7 +53,7 @@ ecs::Entity muscle_entity(const ecs::World& world, ecs::Entity musculature, std:
 // ledger is on. `despawn_musculature` takes it out again.
 void list_costs(ecs::World& world, ecs::Entity musculature, std::string label);
 
-// The muscle's current surface; empty for an entity that is not a muscle.
+// The muscle's current surface, until the next step; empty for an entity that is not a muscle.
 MuscleSurfaceView surface_of(const ecs::World& world, ecs::Entity muscle);
 
 // Current functional length, m; zero for an entity that is not a muscle.

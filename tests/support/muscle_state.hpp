@@ -8,7 +8,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "modules/muscle/asset/build_muscle_asset.hpp"
-#include "modules/muscle/components/muscle_measures.hpp"
+#include "modules/muscle/components/lay_out_state.hpp"
 #include "modules/muscle/systems/kernel_jobs.hpp"
 
 namespace fascicle::test {
@@ -23,20 +23,10 @@ struct MuscleState {
 
   explicit MuscleState(std::shared_ptr<const muscle::MuscleAsset> asset) {
     musculature.attached.assign(asset->size(), 1);
-    lines.x.assign(asset->slot_count, 0.0f);
-    lines.y = lines.z = lines.x;
-    for (auto* array : {&sections.ux, &sections.uy, &sections.uz, &sections.vx, &sections.vy, &sections.vz,
-                        &sections.arc}) {
-      array->assign(asset->slot_count, 0.0f);
-    }
-    sections.radii = asset->rest_radii;
-    sections.twist.assign(asset->lane_count, 0.0f);
-    for (std::size_t end = 0; end < 2; ++end) {
-      tendons.segment[end].assign(asset->lane_count, 0);
-      tendons.fraction[end].assign(asset->lane_count, 0.0f);
-      tendons.arc[end].assign(asset->lane_count, 0.0f);
-    }
-    surfaces.vertices.assign(asset->vertex_count, muscle::SurfaceVertex{});
+    muscle::lay_out(*asset, lines);
+    muscle::lay_out(*asset, sections);
+    muscle::lay_out(*asset, tendons);
+    muscle::lay_out(*asset, surfaces);
     volumes.assign(asset->size(), 0.0f);
     musculature.asset = std::move(asset);
   }
@@ -46,8 +36,8 @@ struct MuscleState {
   void step(const muscle::MtuKernels& kernels, const std::vector<glm::mat4>& bones, bool restart_twist = false,
             bool stream = false) {
     const BoneMatrices matrices{bones, 0};
-    kernels.place_points(muscle::place_points_job(asset(), matrices, lines));
-    kernels.build_frames(muscle::build_frames_job(asset(), matrices, lines, restart_twist, sections));
+    kernels.place_points(muscle::place_points_job(musculature, matrices, lines));
+    kernels.build_frames(muscle::build_frames_job(musculature, matrices, lines, restart_twist, sections));
     shape(kernels, stream);
   }
 

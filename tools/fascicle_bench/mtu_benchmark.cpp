@@ -18,6 +18,7 @@
 #include "engine/ecs/monotonic_clock.hpp"
 #include "engine/math/aligned_vector.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
+#include "modules/muscle/components/lay_out_state.hpp"
 #include "modules/muscle/components/muscle_settings.hpp"
 #include "modules/muscle/kernels/mtu_kernels.hpp"
 #include "modules/muscle/systems/kernel_jobs.hpp"
@@ -41,29 +42,17 @@ struct Walker {
 
   explicit Walker(std::shared_ptr<const MuscleAsset> asset) {
     musculature.attached.assign(asset->size(), 1);
-    lines.x = asset->rest_x;
-    lines.y = asset->rest_y;
-    lines.z = asset->rest_z;
-    for (auto* array : {&sections.ux, &sections.uy, &sections.uz, &sections.vx, &sections.vy, &sections.vz,
-                        &sections.arc}) {
-      array->assign(asset->slot_count, 0.0f);
-    }
-    sections.radii = asset->rest_radii;
-    sections.twist.assign(asset->lane_count, 0.0f);
-    for (std::size_t end = 0; end < 2; ++end) {
-      tendons.segment[end].assign(asset->lane_count, 0);
-      tendons.fraction[end].assign(asset->lane_count, 0.0f);
-      tendons.arc[end].assign(asset->lane_count, 0.0f);
-    }
-    surfaces.vertices.assign(asset->vertex_count, SurfaceVertex{});
+    lay_out(*asset, lines);
+    lay_out(*asset, sections);
+    lay_out(*asset, tendons);
+    lay_out(*asset, surfaces);
     musculature.asset = std::move(asset);
   }
 
   void step(const MtuKernels& kernels, const BoneMatrices& bones, bool stream) {
-    const MuscleAsset& asset = *musculature.asset;
-    kernels.place_points(place_points_job(asset, bones, lines));
-    kernels.build_frames(build_frames_job(asset, bones, lines, false, sections));
-    kernels.find_tendons(find_tendons_job(asset, sections, tendons));
+    kernels.place_points(place_points_job(musculature, bones, lines));
+    kernels.build_frames(build_frames_job(musculature, bones, lines, false, sections));
+    kernels.find_tendons(find_tendons_job(*musculature.asset, sections, tendons));
     kernels.write_surfaces(write_surfaces_job(sections_view(musculature, lines, sections, tendons), stream, surfaces));
   }
 };

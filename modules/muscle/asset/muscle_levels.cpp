@@ -67,7 +67,8 @@ struct Level {
 bool same_binding(const PointBinding& a, const PointBinding& b) {
   if (a.first_bone != b.first_bone || a.second_bone != b.second_bone) return false;
   for (int i = 0; i < 4; ++i) {
-    if (std::abs(a.first[i] - b.first[i]) > kSamePlace || std::abs(a.second[i] - b.second[i]) > kSamePlace) return false;
+    if (std::abs(a.first[i] - b.first[i]) > kSamePlace) return false;
+    if (std::abs(a.second[i] - b.second[i]) > kSamePlace) return false;
   }
   return true;
 }

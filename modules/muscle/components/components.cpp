@@ -4,6 +4,7 @@
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/components/action_lines.hpp"
 #include "modules/muscle/components/cross_sections.hpp"
+#include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/components/muscle_measures.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
 #include "modules/muscle/components/musculature.hpp"
@@ -29,8 +30,10 @@ std::size_t heap_bytes(const ActionLines& lines) {
 
 std::size_t heap_bytes(const CrossSections& sections) {
   return bytes_of(sections.ux, sections.uy, sections.uz, sections.vx, sections.vy, sections.vz, sections.arc,
-                  sections.radii, sections.twist);
+                  sections.radii, sections.twist, sections.ends);
 }
+
+std::size_t heap_bytes(const MuscleDetail& detail) { return bytes_of(detail.twist); }
 
 std::size_t heap_bytes(const Tendons& tendons) {
   std::size_t sum = 0;

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "engine/math/aligned_vector.hpp"
+#include "modules/muscle/kernels/kernel_data.hpp"
 
 namespace fascicle::muscle {
 
@@ -14,6 +16,8 @@ struct CrossSections {
   AlignedVector<float> arc;    // by slot: m along the drawn line from the origin
   AlignedVector<float> radii;  // m; by MuscleAsset::radius; may be negative
   AlignedVector<float> twist;  // by lane: rad, at the insertion, unwrapped, zero at rest
+  // Like MuscleAsset::ends, in place of them while a level of detail is on its way to another (Musculature::morph).
+  std::vector<EndFrame> ends;
   std::uint32_t teleport_count = 0;  // of the bones when the twist was last followed
   bool fresh = true;                 // not yet followed at all
 };

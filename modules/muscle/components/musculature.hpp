@@ -10,6 +10,7 @@
 
 namespace fascicle::muscle {
 
+struct LevelMorph;
 struct MuscleAsset;
 
 // On a musculature's entity.
@@ -18,6 +19,9 @@ struct Musculature {
   ecs::Entity character;                 // has BoneMatrices
   std::vector<ecs::Entity> muscles;      // by index in the asset; kNoEntity once detached
   std::vector<std::uint8_t> attached;    // 0: detached; its surface is collapsed to a point and draws nothing
+  // Where `asset` is one of several levels of detail (MuscleDetail): what it becomes, and how far it has, 0..1.
+  const LevelMorph* coarser = nullptr;   // not null where morph > 0
+  float morph = 0.0f;
 };
 
 // On a muscle's entity.

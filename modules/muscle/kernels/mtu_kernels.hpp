@@ -27,6 +27,8 @@ inline constexpr float kLargestBoneEntry = 1.0e5f;
 struct PlacePointsJob {
   const float* bones = nullptr;           // 16 floats each, by columns
   const PointBinding* points = nullptr;   // single_count by one bone, then those by two
+  const PointBinding* targets = nullptr;  // what the points become, by the same bones; null: nothing
+  float morph = 0.0f;                     // how far they have, 0..1
   std::size_t single_count = 0;
   std::size_t count = 0;
   const std::uint8_t* held = nullptr;     // by muscle: 1 keeps its points; null: none

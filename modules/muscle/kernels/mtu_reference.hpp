@@ -35,12 +35,27 @@ static bool check_bones(const float* bones, std::size_t count) {
   return true;
 }
 
+static Vec transform_between(const float* m, const float* from, const float* to, float morph) {
+  float mixed[4];
+  for (int i = 0; i < 4; ++i) mixed[i] = from[i] + morph * (to[i] - from[i]);
+  return transform(m, mixed);
+}
+
 static void place_points(const PlacePointsJob& job) {
   for (std::size_t i = 0; i < job.count; ++i) {
     const PointBinding& point = job.points[i];
     if (job.held != nullptr && job.held[point.muscle] != 0) continue;
-    Vec at = transform(job.bones + 16 * point.first_bone, point.first);
-    if (i >= job.single_count) at = at + transform(job.bones + 16 * point.second_bone, point.second);
+    const float* const first_bone = job.bones + 16 * point.first_bone;
+    const float* const second_bone = job.bones + 16 * point.second_bone;
+    Vec at;
+    if (job.targets == nullptr) {
+      at = transform(first_bone, point.first);
+      if (i >= job.single_count) at = at + transform(second_bone, point.second);
+    } else {
+      const PointBinding& target = job.targets[i];
+      at = transform_between(first_bone, point.first, target.first, job.morph);
+      if (i >= job.single_count) at = at + transform_between(second_bone, point.second, target.second, job.morph);
+    }
     job.x[point.slot] = at.x;
     job.y[point.slot] = at.y;
     job.z[point.slot] = at.z;

@@ -22,7 +22,18 @@ inline bool check_bones(const float* bones, std::size_t count) {
   return !any(good ^ broadcast_int<8>(-1));
 }
 
-inline void place_points(const PlacePointsJob& job) {
+// A point whose binding is on its way to another one's is at the same part of the way between their points, since
+// a point is linear in its binding.
+template <bool kMorph>
+inline void place_all(const PlacePointsJob& job) {
+  // Column sums by the weights at `from`, or by those between them and `to`.
+  const auto carry_by = [&](std::uint32_t bone, const float* from, const float* to) __attribute__((always_inline)) {
+    if constexpr (!kMorph) return transform(job.bones + 16 * bone, from);
+    alignas(16) float mixed[4];
+    const WideFloat<4> start = load<4>(from);
+    store(start + job.morph * (load<4>(to) - start), mixed);
+    return transform(job.bones + 16 * bone, mixed);
+  };
   const auto place = [&](const PointBinding& point, WideFloat<4> at) __attribute__((always_inline)) {
     job.x[point.slot] = at.v[0];
     job.y[point.slot] = at.v[1];
@@ -33,15 +44,22 @@ inline void place_points(const PlacePointsJob& job) {
   };
   for (std::size_t i = 0; i < job.single_count; ++i) {
     const PointBinding& point = job.points[i];
+    const PointBinding& target = kMorph ? job.targets[i] : point;
     if (is_held(point)) continue;
-    place(point, transform(job.bones + 16 * point.first_bone, point.first));
+    place(point, carry_by(point.first_bone, point.first, target.first));
   }
   for (std::size_t i = job.single_count; i < job.count; ++i) {
     const PointBinding& point = job.points[i];
+    const PointBinding& target = kMorph ? job.targets[i] : point;
     if (is_held(point)) continue;
-    place(point, transform(job.bones + 16 * point.first_bone, point.first) +
-                     transform(job.bones + 16 * point.second_bone, point.second));
+    place(point, carry_by(point.first_bone, point.first, target.first) +
+                     carry_by(point.second_bone, point.second, target.second));
   }
+}
+
+inline void place_points(const PlacePointsJob& job) {
+  if (job.targets == nullptr) place_all<false>(job);
+  else place_all<true>(job);
 }
 
 }  // namespace fascicle::muscle::FASCICLE_ISA

@@ -3,6 +3,7 @@
 
 #include "engine/animation/skeleton.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/asset/muscle_levels.hpp"
 #include "modules/muscle/components/action_lines.hpp"
 #include "modules/muscle/components/cross_sections.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
@@ -20,12 +21,17 @@ inline bool has_bones(const MuscleAsset& asset, const BoneMatrices* bones) {
   return bones != nullptr && asset.bone_count > 0 && bones->world.size() >= asset.bone_count;
 }
 
-inline PlacePointsJob place_points_job(const MuscleAsset& asset, const BoneMatrices& bones, ActionLines& lines) {
+inline PlacePointsJob place_points_job(const Musculature& musculature, const BoneMatrices& bones, ActionLines& lines) {
+  const MuscleAsset& asset = *musculature.asset;
   PlacePointsJob job;
   job.bones = &bones.world[0][0][0];
   job.points = asset.points.data();
   job.single_count = asset.single_point_count;
   job.count = asset.points.size();
+  if (musculature.morph > 0.0f) {
+    job.targets = musculature.coarser->points.data();
+    job.morph = musculature.morph;
+  }
   job.held = lines.any_held ? lines.held.data() : nullptr;
   job.x = lines.x.data();
   job.y = lines.y.data();
@@ -33,13 +39,14 @@ inline PlacePointsJob place_points_job(const MuscleAsset& asset, const BoneMatri
   return job;
 }
 
-inline BuildFramesJob build_frames_job(const MuscleAsset& asset, const BoneMatrices& bones, const ActionLines& lines,
-                                       bool restart_twist, CrossSections& sections) {
+inline BuildFramesJob build_frames_job(const Musculature& musculature, const BoneMatrices& bones,
+                                       const ActionLines& lines, bool restart_twist, CrossSections& sections) {
+  const MuscleAsset& asset = *musculature.asset;
   BuildFramesJob job;
   job.bones = &bones.world[0][0][0];
   job.blocks = asset.blocks.data();
   job.block_count = asset.blocks.size();
-  job.ends = asset.ends.data();
+  job.ends = musculature.morph > 0.0f ? sections.ends.data() : asset.ends.data();
   job.held = lines.any_held ? lines.held_lanes.data() : nullptr;
   job.restart_twist = restart_twist;
   job.x = lines.x.data();

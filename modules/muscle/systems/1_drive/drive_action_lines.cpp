@@ -40,7 +40,7 @@ void drive_action_lines(ecs::View<const Musculature, ActionLines> musculatures,
     const MuscleAsset& asset = *musculature.asset;
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
     hold_muscles(asset, bones, kernels, lines);
-    if (has_bones(asset, bones)) kernels.place_points(place_points_job(asset, *bones, lines));
+    if (has_bones(asset, bones)) kernels.place_points(place_points_job(musculature, *bones, lines));
   };
   ecs::each_in_parallel(musculatures, kMusculaturesPerChunk, drive);
 }

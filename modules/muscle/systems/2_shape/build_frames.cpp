@@ -13,11 +13,10 @@ void build_frames(ecs::View<const Musculature, const ActionLines, CrossSections>
   const auto build = [&](ecs::Entity entity, const Musculature& musculature, const ActionLines& lines,
                          CrossSections& sections) {
     const ScopedCost cost(costs.row(entity), ScopedCost::kWhole);
-    const MuscleAsset& asset = *musculature.asset;
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
-    if (!has_bones(asset, bones)) return;
+    if (!has_bones(*musculature.asset, bones)) return;
     const bool jumped = sections.fresh || sections.teleport_count != bones->teleport_count;
-    kernels.build_frames(build_frames_job(asset, *bones, lines, jumped, sections));
+    kernels.build_frames(build_frames_job(musculature, *bones, lines, jumped, sections));
     if (jumped && lines.any_held) {
       // A muscle that was held over the jump starts its twist afresh once it is free again.
       for (std::size_t lane = 0; lane < sections.twist.size(); ++lane) {
