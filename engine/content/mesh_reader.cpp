@@ -4,18 +4,25 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/content/closest_name.hpp"
 #include "engine/content/gltf_reader.hpp"
+#include "engine/content/obj_reader.hpp"
+#include "engine/content/ply_reader.hpp"
+#include "engine/content/stl_reader.hpp"
+#include "engine/content/vtk_reader.hpp"
 #include "engine/content/vtp_reader.hpp"
 
 namespace fascicle {
 namespace {
 
-constexpr std::string_view kSupported = "supported are .vtp, .glb and .gltf";
+constexpr std::string_view kSupported = "supported are .vtk, .vtp, .obj, .ply, .stl, .glb and .gltf";
+
+using MeshReader = Result<TriangleMesh> (*)(const std::filesystem::path&);
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -27,6 +34,17 @@ std::string lower_extension(const std::filesystem::path& file) {
 bool is_gltf(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   return extension == ".glb" || extension == ".gltf";
+}
+
+// The reader of a file that holds one mesh; null where the extension is of no such format.
+MeshReader find_reader(const std::filesystem::path& file) {
+  static constexpr std::pair<std::string_view, MeshReader> kReaders[] = {
+      {".vtk", read_vtk}, {".vtp", read_vtp}, {".obj", read_obj}, {".ply", read_ply}, {".stl", read_stl}};
+  const std::string extension = lower_extension(file);
+  for (const auto& [known, reader] : kReaders) {
+    if (known == extension) return reader;
+  }
+  return nullptr;
 }
 
 // Appends a mesh in the file's rest space. Each vertex goes there by one matrix: that of the node, or the blend of its
@@ -106,7 +124,7 @@ MeshReference split_mesh_reference(const std::string& reference) {
   return {reference.substr(0, hash), reference.substr(hash + 1)};
 }
 
-bool is_mesh_file(const std::filesystem::path& file) { return is_gltf(file) || lower_extension(file) == ".vtp"; }
+bool is_mesh_file(const std::filesystem::path& file) { return is_gltf(file) || find_reader(file) != nullptr; }
 
 Result<TriangleMesh> read_mesh(const std::string& file) {
   const MeshReference reference = split_mesh_reference(file);
@@ -117,7 +135,7 @@ Result<TriangleMesh> read_mesh(const std::string& file) {
     mesh.diagnostics().append(gltf.diagnostics());  // warnings
     return mesh;
   }
-  if (lower_extension(reference.file) == ".vtp") return read_vtp(reference.file);
+  if (const MeshReader reader = find_reader(reference.file)) return reader(reference.file);
   return Diagnostic{file,
                     0,
                     0,

@@ -9,8 +9,10 @@
 
 namespace fascicle {
 
-// "FILE.vtp", or "FILE.glb#NAME" / "FILE.gltf#NAME", where NAME is that of a mesh or of the node that carries it;
-// without #NAME all meshes of the file are joined. glTF meshes come in the file's rest space (node transforms applied).
+// "FILE" with the extension .vtk, .vtp, .obj, .ply or .stl, in the file's own frame and unit; or "FILE.glb#NAME",
+// "FILE.gltf#NAME", where NAME is that of a mesh or of the node that carries it; without #NAME all meshes of the file
+// are joined. glTF meshes come in the file's rest space (node transforms applied). Meshes come as the file has them,
+// not welded and not checked: see geometry/clean_mesh.hpp.
 Result<TriangleMesh> read_mesh(const std::string& file);
 
 // Whether read_mesh knows the file's extension.
