@@ -2,8 +2,10 @@
 // the action lines, binds their points to bones, finds rest frames, tendons and radii, and lays the data out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,9 @@ namespace fascicle::muscle {
 struct MuscleFit {
   std::vector<glm::vec3> displacements;  // m, mu per section, in the rest bones' space
   std::vector<float> radii;              // m, |C| per section; may be negative
+  // The first and the last section's normal where an attachment area gives it, by MuscleEnd: unit, in the rest bones'
+  // space, along the line from origin to insertion.
+  std::array<std::optional<glm::vec3>, 2> end_normals;
 };
 
 // Builds the asset. `rest_bones` are the skeleton's bone-to-character matrices at rest; the attachments' positions are

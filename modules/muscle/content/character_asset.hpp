@@ -18,6 +18,7 @@
 
 #include "engine/content/result.hpp"
 #include "modules/muscle/asset/muscle_description.hpp"
+#include "modules/muscle/content/fit_store.hpp"
 
 namespace fascicle {
 struct Clip;
@@ -30,12 +31,21 @@ struct TriangleMesh;
 namespace fascicle::muscle {
 
 struct MuscleAsset;
+struct MuscleLevels;
+
+// What becomes of muscles that have an anatomical mesh.
+enum class FitMode {
+  kStored,  // the fit stored beside the character file, where it is up to date; else fitted now
+  kFresh,   // fitted now
+  kNone,    // the unfitted shape
+};
 
 struct LoadOptions {
   std::filesystem::path data_folder = {};  // what `data:` stands for; empty: find_data_folder()
   // Level of detail for all muscles, in place of what the file says.
   std::optional<std::uint32_t> section_vertices = std::nullopt;          // |C|, even, >= 6
   std::optional<std::uint32_t> longitudinal_subdivision = std::nullopt;  // LSS, 0..6
+  FitMode fit = FitMode::kStored;
 };
 
 // A rigid mesh that follows one bone: `transform` takes its vertices to the bone's frame (m).
@@ -53,8 +63,10 @@ struct CharacterAsset {
   std::vector<BoneMesh> bone_meshes;
   std::vector<std::shared_ptr<const SkinAsset>> skins;
   std::vector<MuscleDescription> descriptions;         // in file order; a mirrored muscle follows its original
-  std::shared_ptr<const MuscleAsset> muscles;          // null where the file has none
-  // Anatomical meshes by the muscle's name, in the character's rest space (m).
+  std::shared_ptr<const MuscleAsset> muscles;          // the finest level; null where the file has none
+  std::shared_ptr<const MuscleLevels> levels;          // all levels of detail; null where the file has none
+  std::vector<MuscleFits> fits;                        // by description; empty where none was asked for
+  // Anatomical meshes by the muscle's name, in the character's rest space (m). Heads of one mesh share the object.
   std::map<std::string, std::shared_ptr<const TriangleMesh>> muscle_meshes;
   std::vector<std::filesystem::path> files;            // everything that was read, the character file first
 };

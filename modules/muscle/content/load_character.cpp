@@ -11,6 +11,7 @@
 #include "modules/muscle/asset/build_muscle_asset.hpp"
 #include "modules/muscle/asset/check_descriptions.hpp"
 #include "modules/muscle/content/character_asset.hpp"
+#include "modules/muscle/content/build_levels.hpp"
 #include "modules/muscle/content/character_file.hpp"
 #include "modules/muscle/content/content_sources.hpp"
 #include "modules/muscle/content/load_parts.hpp"
@@ -142,7 +143,22 @@ void build_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& ass
   Result<std::shared_ptr<const MuscleAsset>> built = build_muscle_asset(sound, bones);
   for (const Diagnostic& fault : built.diagnostics().errors) report.add({.errors = {fault}, .warnings = {}});
   diagnostics.append({.errors = {}, .warnings = std::move(built.diagnostics().warnings)});
-  if (diagnostics.ok()) asset.muscles = *built;
+}
+
+// The stored fits, where there is use for them. That they are broken is no error: muscles are fitted anew.
+FitStore load_fits(const fs::path& file, const CharacterAsset& asset, ContentSources& sources,
+                   Diagnostics& diagnostics) {
+  if (asset.muscle_meshes.empty()) return {};
+  const fs::path store_file = fit_store_of(file);
+  sources.note(store_file);
+  if (std::error_code error; !fs::exists(store_file, error)) return {};
+  Result<FitStore> store = read_fit_store(store_file);
+  if (store) return std::move(*store);
+  Diagnostic warning = store.diagnostics().errors.front();
+  warning.cause = "the stored fits cannot be used: " + warning.cause;
+  warning.remedy = "muscles are fitted at load; run fascicle-cook fit " + file.string();
+  diagnostics.warnings.push_back(std::move(warning));
+  return {};
 }
 
 }  // namespace
@@ -175,6 +191,12 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
     load_muscle_meshes(chain.files()[i]->content, chain.path(i).parent_path(), resolved, sources, *asset, diagnostics);
   }
   if (asset->skeleton) build_muscles(resolved, *asset, diagnostics);
+  if (diagnostics.ok() && !resolved.empty()) {
+    FitStore store;
+    if (options.fit == FitMode::kStored) store = load_fits(file, *asset, sources, diagnostics);
+    const FitSettings settings{options.fit != FitMode::kNone, content.fit_supersampling, content.coarser_levels};
+    build_levels(resolved, settings, store, *asset, diagnostics);
+  }
   drop_repetitions(diagnostics);
   asset->files = sources.files();
   if (!diagnostics.ok()) return diagnostics;

@@ -55,7 +55,8 @@ TEST_F(LoadCharacter, FillsEveryPart) {
   EXPECT_EQ(legs->descriptions[2].name, "soleus_r");
   ASSERT_TRUE(legs->muscles);
   EXPECT_EQ(legs->muscles->size(), 3u);
-  EXPECT_THAT(legs->files, ElementsAre(folder.path() / "legs.character.json", folder.path() / "shapes.gltf"));
+  EXPECT_THAT(legs->files, ElementsAre(folder.path() / "legs.character.json", folder.path() / "shapes.gltf",
+                                       folder.path() / "legs.fit.json"));
 }
 
 TEST_F(LoadCharacter, MuscleFieldsGoBeforeTheFilesAndOptionsBeforeBoth) {

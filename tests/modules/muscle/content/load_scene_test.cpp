@@ -38,7 +38,8 @@ TEST(LoadScene, PlacesItsCharactersAndLoadsEachFileOnce) {
   EXPECT_EQ(scene.characters[2].character, first.character);  // the same file by another name
   EXPECT_FLOAT_EQ(scene.camera.field_of_view, 0.8f);
   EXPECT_THAT(scene.files, ElementsAre(folder.path() / "pair.scene.json", folder.path() / "legs.character.json",
-                                       folder.path() / "shapes.gltf", folder.path() / "block.character.json"));
+                                       folder.path() / "shapes.gltf", folder.path() / "legs.fit.json",
+                                       folder.path() / "block.character.json"));
 }
 
 TEST(LoadScene, PlaysAMotionOnJoints) {
