@@ -3,33 +3,49 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <iterator>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
-#include <type_traits>
 
 #include <glm/geometric.hpp>
 #include <pugixml.hpp>
 
 #include "engine/content/file_text.hpp"
 #include "engine/content/limit_errors.hpp"
+#include "engine/content/mesh_faces.hpp"
+#include "engine/content/mesh_source.hpp"
+#include "engine/content/number_type.hpp"
 #include "engine/content/text_position.hpp"
+#include "engine/content/vtp_encoding.hpp"
 
 namespace fascicle {
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{512} << 20;
 constexpr std::size_t kMaxErrors = 20;
 constexpr std::size_t kMaxPoints = 0xfffffffe;
 
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
+std::optional<NumberType> find_type(std::string_view name) {
+  static constexpr std::string_view kNames[] = {"Int8",  "UInt8",  "Int16",  "UInt16",  "Int32",
+                                                "UInt32", "Int64", "UInt64", "Float32", "Float64"};
+  const auto found = std::ranges::find(kNames, name);
+  if (found == std::end(kNames)) return std::nullopt;
+  return static_cast<NumberType>(found - std::begin(kNames));  // in the order of the types
+}
+
 class VtpParser {
  public:
-  VtpParser(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)), lines_(text_) {}
+  VtpParser(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
+    cut_appended_data();
+    lines_ = LineTable(text_);
+  }
 
   Result<TriangleMesh> parse() {
     read_document();
@@ -62,6 +78,18 @@ class VtpParser {
   }
 
   // --- structure ---
+  // What follows the _ in <AppendedData> may be any bytes: it is kept apart, and the XML is closed without it.
+  void cut_appended_data() {
+    const std::size_t element = text_.find("<AppendedData");
+    const std::size_t end = text_.find('>', element);
+    if (element == std::string::npos || end == std::string::npos || text_[end - 1] == '/') return;
+    const std::size_t mark = text_.find_first_not_of(" \n\r\t", end + 1);
+    if (mark == std::string::npos || text_[mark] != '_') return;
+    appended_ = text_.substr(mark + 1);
+    text_.resize(end + 1);
+    text_ += "</AppendedData></VTKFile>";
+  }
+
   void read_document() {
     pugi::xml_document document;
     // Character references and line ends stay as they are, so that offsets into values are offsets into the file.
@@ -69,15 +97,16 @@ class VtpParser {
         text_.data(), text_.size(), pugi::parse_cdata | pugi::parse_wconv_attribute, pugi::encoding_utf8);
     if (!parsed) {
       add(diagnostics_.errors, static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0)), "",
-          fmt::format("not XML: {}", parsed.description()), "save it as VTK PolyData in XML (.vtp), ASCII");
+          fmt::format("not XML: {}", parsed.description()), "save it as VTK PolyData in XML (.vtp)");
       return;
     }
     const pugi::xml_node root = document.child("VTKFile");
     if (!root)
-      return error(document.first_child(), -1, "no <VTKFile> element", "save it as VTK PolyData in XML (.vtp), ASCII");
+      return error(document.first_child(), -1, "no <VTKFile> element", "save it as VTK PolyData in XML (.vtp)");
     if (const std::string_view type = root.attribute("type").value(); type != "PolyData") {
       return error(root, -1, fmt::format("type is \"{}\"", type), "save it as type=\"PolyData\"");
     }
+    if (!read_encoding(root)) return;
     const pugi::xml_node data = root.child("PolyData");
     if (!data) return error(root, -1, "no <PolyData> element", "add it; is the file complete?");
     if (!data.child("Piece")) return error(data, -1, "no <Piece> element", "add it; is the file complete?");
@@ -85,6 +114,18 @@ class VtpParser {
     for (const pugi::xml_node piece : data.children("Piece")) all_have_normals = read_piece(piece) && all_have_normals;
     if (!all_have_normals) mesh_.normals.clear();
     if (diagnostics_.ok() && mesh_.indices.empty()) error(data, -1, "no polygons", "is it a surface mesh?");
+  }
+
+  bool read_encoding(pugi::xml_node root) {
+    const std::string_view order = root.attribute("byte_order").value(), header = root.attribute("header_type").value();
+    const std::string_view compressor = root.attribute("compressor").value();
+    if (order == "BigEndian") encoding_.order = std::endian::big;
+    if (header == "UInt64") encoding_.header = NumberType::kUint64;
+    encoding_.compressed = compressor == "vtkZLibDataCompressor";
+    appended_is_base64_ = root.child("AppendedData").attribute("encoding").value() == std::string_view("base64");
+    if (compressor.empty() || encoding_.compressed) return true;
+    error(root, -1, fmt::format("compressor is \"{}\"", compressor), "save it compressed with zlib, or not at all");
+    return false;
   }
 
   // Whether the piece gives normals.
@@ -162,7 +203,9 @@ class VtpParser {
             fmt::format("offset {} is {}, after {} with {} entries in connectivity", i, ends[i], begin, points.size()),
             "offsets rise and end with the number of entries");
       }
-      add_cell(std::span(points).subspan(begin, ends[i] - begin), first, name[0] == 'S');
+      const std::span<std::uint32_t> cell = std::span(points).subspan(begin, ends[i] - begin);
+      for (std::uint32_t& point : cell) point += static_cast<std::uint32_t>(first);
+      name[0] == 'S' ? add_strip(cell, mesh_.indices) : add_polygon(cell, mesh_.indices);
       begin = ends[i];
     }
     if (begin != points.size()) {
@@ -171,24 +214,9 @@ class VtpParser {
     }
   }
 
-  void add_cell(std::span<const std::uint32_t> points, std::size_t first, bool strip) {
-    for (std::size_t k = 2; k < points.size(); ++k) {
-      const bool odd = strip && k % 2 == 1;
-      const std::uint32_t a = strip ? points[k - 2] : points[0], b = points[k - 1], c = points[k];
-      if (a == b || b == c || c == a) continue;  // strips turn corners by such triangles
-      for (const std::uint32_t p : {odd ? b : a, odd ? a : b, c})
-        mesh_.indices.push_back(static_cast<std::uint32_t>(first + p));
-    }
-  }
-
   // --- arrays ---
-  // The ASCII text of an array; nullptr after an error.
+  // The text of an array; nullptr after an error.
   const char* text_of(pugi::xml_node array) {
-    const std::string_view format = array.attribute("format").value();
-    if (!format.empty() && format != "ascii") {
-      error(array, -1, fmt::format("format is \"{}\"", format), "save the file as ASCII");
-      return nullptr;
-    }
     if (array.first_child() != array.last_child() || array.first_child().type() == pugi::node_element) {
       error(array, -1, "elements inside an array", "an array holds numbers only");
       return nullptr;
@@ -201,28 +229,25 @@ class VtpParser {
     return *at == '\0' ? nullptr : at;
   }
 
-  // Calls take(value) for each number; false after an error, which `take` may cause by returning what is wrong.
-  template <class Number, class Take>
+  // Calls take(number) for each number; false after an error, which `take` may cause by returning what is wrong.
+  template <class Take>
   bool read_numbers(pugi::xml_node array, std::string_view wanted, Take take) {
+    const std::string_view format = array.attribute("format").value();
+    if (format == "binary" || format == "appended") return read_encoded(array, wanted, take);
+    if (!format.empty() && format != "ascii") {
+      error(array, -1, fmt::format("format is \"{}\"", format), "save it as ascii, binary or appended");
+      return false;
+    }
     const char* const begin = text_of(array);
     if (begin == nullptr) return false;
     const std::ptrdiff_t offset = std::max<std::ptrdiff_t>(array.first_child().offset_debug(), 0);
     for (const char* at = skip_space(begin); at != nullptr;) {
       const char* end = at;
       while (*end != '\0' && !is_space(*end)) ++end;
-      Number number{};
-      const auto [rest, code] = std::from_chars(at, end, number);
-      std::string cause;
-      if (rest != end || code == std::errc::invalid_argument) {
-        cause =
-            fmt::format("'{}' is not {}",
-                        std::string_view(at, std::min<std::size_t>(static_cast<std::size_t>(end - at), 32)), wanted);
-      } else if (code == std::errc::result_out_of_range && !(std::is_floating_point_v<Number> && is_tiny(at, end))) {
-        cause = fmt::format("'{}' is out of range",
-                            std::string_view(at, std::min<std::size_t>(static_cast<std::size_t>(end - at), 32)));
-      } else {
-        cause = take(number);
-      }
+      const std::string_view word(at, static_cast<std::size_t>(end - at));
+      double number = 0.0;
+      const std::string_view fault = parse_number(word, number);
+      std::string cause = fault.empty() ? take(number) : fmt::format("{} {}", quote_word(word), fault);
       if (!cause.empty()) {
         error(array, offset + (at - begin), std::move(cause), fmt::format("write {}", wanted));
         return false;
@@ -232,10 +257,48 @@ class VtpParser {
     return true;
   }
 
-  // A denormal number, which from_chars refuses for float, is zero to us.
-  static bool is_tiny(const char* begin, const char* end) {
-    double number = 1.0;
-    return std::from_chars(begin, end, number).ec == std::errc() && std::abs(number) < 1.0;
+  template <class Take>
+  bool read_encoded(pugi::xml_node array, std::string_view wanted, Take take) {
+    const std::optional<NumberType> type = find_type(array.attribute("type").value());
+    if (!type) {
+      error(array, -1, fmt::format("type is \"{}\"", array.attribute("type").value()),
+            "name one of VTK's types of numbers, such as Float32");
+      return false;
+    }
+    const VtpArray decoded = decode(array);
+    const std::size_t size = byte_size(*type), count = decoded.bytes.size() / size;
+    if (!decoded.fault.empty()) {
+      error(array, -1, decoded.fault, "is the file complete?");
+      return false;
+    }
+    // Arrays may name the same bytes again and again.
+    decoded_bytes_ += decoded.bytes.size();
+    if (decoded_bytes_ > kMaxVtpArrayBytes) {
+      error(array, -1, fmt::format("the arrays are over {} bytes", kMaxVtpArrayBytes), "split the mesh");
+      return false;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string cause = take(decode_number(*type, encoding_.order, decoded.bytes.data() + i * size));
+      if (cause.empty()) continue;
+      error(array, -1, fmt::format("value {}: {}", i, cause), fmt::format("write {}", wanted));
+      return false;
+    }
+    return true;
+  }
+
+  VtpArray decode(pugi::xml_node array) {
+    if (array.attribute("format").value() == std::string_view("binary")) {
+      const char* const text = text_of(array);
+      std::string digits = text == nullptr ? "" : text;
+      std::erase_if(digits, is_space);
+      return decode_vtp_base64(digits, encoding_);
+    }
+    const std::uint64_t offset = array.attribute("offset").as_ullong(std::numeric_limits<std::uint64_t>::max());
+    if (offset > appended_.size())
+      return {{}, fmt::format("offset \"{}\" into {} bytes of AppendedData", array.attribute("offset").value(),
+                              appended_.size())};
+    const std::string_view data = std::string_view(appended_).substr(offset);
+    return appended_is_base64_ ? decode_vtp_base64(data, encoding_) : decode_vtp_raw(data, encoding_);
   }
 
   bool read_vectors(pugi::xml_node array, std::vector<glm::vec3>& out) {
@@ -246,9 +309,10 @@ class VtpParser {
     }
     glm::vec3 vector{0.0f};
     int filled = 0;
-    const bool ok = read_numbers<float>(array, "a finite number", [&](float number) -> std::string {
+    const bool ok = read_numbers(array, "a finite number", [&](double number) -> std::string {
       if (!std::isfinite(number)) return fmt::format("{} is not finite", number);
-      vector[filled++] = number;
+      if (!fits_float(number)) return fmt::format("{} is out of range", number);
+      vector[filled++] = static_cast<float>(number);
       if (filled == 3) {
         out.push_back(vector);
         filled = 0;
@@ -262,17 +326,20 @@ class VtpParser {
   }
 
   bool read_integers(pugi::xml_node array, std::size_t max, std::vector<std::uint32_t>& out) {
-    return read_numbers<std::int64_t>(array, fmt::format("a whole number from 0 to {}", max),
-                                      [&](std::int64_t number) -> std::string {
-                                        if (number < 0 || static_cast<std::uint64_t>(number) > max)
-                                          return fmt::format("{} is out of range", number);
-                                        out.push_back(static_cast<std::uint32_t>(number));
-                                        return {};
-                                      });
+    return read_numbers(array, fmt::format("a whole number from 0 to {}", max), [&](double number) -> std::string {
+      if (!(number >= 0.0 && number <= static_cast<double>(max))) return fmt::format("{} is out of range", number);
+      if (number != std::floor(number)) return fmt::format("{} is not a whole number", number);
+      out.push_back(static_cast<std::uint32_t>(number));
+      return {};
+    });
   }
 
-  std::string text_;
+  std::string text_;      // without the appended data
+  std::string appended_;  // what follows the _ in <AppendedData>
   std::string file_;
+  VtpEncoding encoding_;
+  bool appended_is_base64_ = false;
+  std::size_t decoded_bytes_ = 0;  // of all arrays so far
   LineTable lines_;
   TriangleMesh mesh_;
   Diagnostics diagnostics_;
@@ -285,7 +352,7 @@ Result<TriangleMesh> parse_vtp(std::string text, std::string file_name) {
 }
 
 Result<TriangleMesh> read_vtp(const std::filesystem::path& file) {
-  Result<std::string> text = read_text_file(file, kMaxFileBytes);
+  Result<std::string> text = read_text_file(file);
   if (!text) return std::move(text.diagnostics());
   return parse_vtp(std::move(*text), file.string());
 }

@@ -133,7 +133,7 @@ bool MeshDefects::closed() const {
 
 bool MeshDefects::sound() const {
   return closed() && !inverted &&
-         non_finite_vertices + degenerate_triangles + duplicate_triangles + flipped_triangles + self_intersections == 0;
+         non_finite_vertices + duplicate_triangles + flipped_triangles + self_intersections == 0;
 }
 
 std::string MeshDefects::to_text() const {

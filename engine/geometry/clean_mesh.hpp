@@ -35,7 +35,8 @@ struct MeshDefects {
 
   // Every edge has two triangles that agree, and there are some.
   bool closed() const;
-  // Closed, and nothing was found that changes what is inside: welded and unused vertices do not count.
+  // Closed, and nothing was found that changes what is inside. Welded and unused vertices do not, nor do triangles
+  // without area: anatomical meshes are full of them.
   bool sound() const;
   // "12 open edges round 1 hole, 3 flipped triangles (turned round)"; empty when sound.
   std::string to_text() const;

@@ -12,8 +12,8 @@
 namespace fascicle {
 namespace {
 
-constexpr double kSheet = 0.5;  // caps that are this part of the surface make it a sheet
-constexpr double kFlat = 1e-9;  // a volume below this part of area^1.5 is none
+constexpr double kSheet = 0.75;  // caps that are this part of the surface make it a sheet
+constexpr double kFlat = 1e-9;   // a volume below this part of area^1.5 is none
 constexpr std::uint32_t kNoComponent = std::numeric_limits<std::uint32_t>::max();
 
 // Vertices that hang together. Made for all vertices once, used and put back for few of them at a time.

@@ -4,8 +4,8 @@
 // Which of its two senses is outward:
 // - A closed component gets the sense that gives it a positive volume. That holds also for one inside another: muscles
 //   of several overlapping shells are common and muscles with cavities are not, so a cavity counts as filled.
-// - An open one is closed in thought by a fan from the middle of each hole. Are the fans smaller than half of the
-//   surface, it is treated as closed.
+// - An open one is closed in thought by a fan from the middle of each hole. Where the fans are smaller than three
+//   quarters of the surface, it is treated as closed.
 // - What is left are sheets and patches. A single one, and any surface without volume, keeps the sense of most of its
 //   triangles. Several are taken to be parts of one surface: each keeps the sense of most of its triangles, and all are
 //   turned if seen from their middle they face inward.

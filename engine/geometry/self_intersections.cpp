@@ -78,16 +78,15 @@ class TriangleTree {
     std::vector<Entry> order(indices.size() / 3);
     std::vector<Box> boxes(order.size());
     for (std::size_t t = 0; t < order.size(); ++t) {
-      for (std::size_t k = 0; k < 3; ++k) boxes[t].add({positions_[indices[3 * t + k]], positions_[indices[3 * t + k]]});
+      for (const std::uint32_t v : indices.subspan(3 * t, 3)) boxes[t].add({positions_[v], positions_[v]});
       all.add(boxes[t]);
     }
     const glm::dvec3 extent = glm::max(glm::dvec3(all.upper) - glm::dvec3(all.lower), glm::dvec3(1e-300));
     for (std::uint32_t t = 0; t < order.size(); ++t) {
       const glm::dvec3 middle = 0.5 * (glm::dvec3(boxes[t].lower) + glm::dvec3(boxes[t].upper));
-      const glm::dvec3 cell = (middle - glm::dvec3(all.lower)) / extent * double((1 << 21) - 1);
-      order[t] = {spread_bits(static_cast<std::uint64_t>(cell.x)) | spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
-                      spread_bits(static_cast<std::uint64_t>(cell.z)) << 2,
-                  t};
+      const glm::dvec3 cell = (middle - glm::dvec3(all.lower)) / extent * static_cast<double>((1 << 21) - 1);
+      const auto bits = [](double c) { return spread_bits(static_cast<std::uint64_t>(c)); };
+      order[t] = {bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2, t};
     }
     std::ranges::sort(order, [](const Entry& a, const Entry& b) {
       return a.code != b.code ? a.code < b.code : a.triangle < b.triangle;
