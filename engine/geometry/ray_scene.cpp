@@ -15,6 +15,9 @@ namespace fascicle {
 namespace {
 
 constexpr std::uint32_t kPacket = 16;
+// A line in doubt is cast again, so many times, shifted sideways by so much more of the mesh's size each time.
+constexpr int kShifts = 3;
+constexpr float kShift = 2.0e-6f;
 // Two crossings of neighbouring triangles closer than this share of the mesh's size are one.
 constexpr float kSamePlace = 1.0e-6f;
 
@@ -23,10 +26,11 @@ struct ExtremesContext {
   RTCIntersectContext embree;
   std::array<float, kPacket> entries, exits;
   std::array<std::uint32_t, kPacket> counts;
+  std::array<std::int32_t, kPacket> balances;  // entries less exits
 };
 struct CrossingsContext {
   RTCIntersectContext embree;
-  std::array<std::vector<LineCrossing>*, kPacket> crossings;
+  std::array<std::vector<LineCrossing>, kPacket> found;
 };
 
 // f(ray's number, t, triangle, exit) for each hit offered; all are rejected, so that the traversal goes on.
@@ -51,14 +55,23 @@ void record_extremes(const RTCFilterFunctionNArguments* offered) {
     if (exit) context.exits[id] = std::max(context.exits[id], t);
     else context.entries[id] = std::min(context.entries[id], t);
     ++context.counts[id];
+    context.balances[id] += exit ? -1 : 1;
   });
 }
 
 void record_crossings(const RTCFilterFunctionNArguments* offered) {
   CrossingsContext& context = *reinterpret_cast<CrossingsContext*>(offered->context);
   for_each_hit(offered, [&](unsigned int id, float t, std::uint32_t triangle, bool exit) {
-    context.crossings[id]->push_back({t, triangle, exit});
+    context.found[id].push_back({t, triangle, exit});
   });
+}
+
+// Lines through a vertex, to rounding, may miss every triangle round it, though the robust traversal keeps edges tight.
+// A closed mesh is left as often as it is entered; one that is missed may have been missed twice.
+bool is_doubtful(const std::vector<LineCrossing>& crossings) {
+  std::ptrdiff_t balance = 0;
+  for (const LineCrossing& crossing : crossings) balance += crossing.exit ? -1 : 1;
+  return balance != 0 || crossings.empty();
 }
 
 }  // namespace
@@ -96,8 +109,30 @@ struct RayScene::Impl {
     if (scene != nullptr) rtcReleaseScene(scene);
   }
 
-  // Casts lines[first ..] as one packet, each from before the mesh; gives back where each began.
-  std::array<float, kPacket> cast_packet(std::span<const Line> lines, RTCIntersectContext& context) const {
+  // Up to 16 lines, each from before the mesh; gives back where each began, from where its hits count.
+  std::array<float, kPacket> cast_packet(std::span<const Line> lines, ExtremesContext& context) const {
+    context.entries.fill(LineExtremes{}.first_entry);
+    context.exits.fill(LineExtremes{}.last_exit);
+    context.counts.fill(0);
+    context.balances.fill(0);
+    return intersect(lines, context.embree);
+  }
+  // The same; t counts from the lines' own origins.
+  void cast_packet(std::span<const Line> lines, CrossingsContext& context) const {
+    const std::array<float, kPacket> starts = intersect(lines, context.embree);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (LineCrossing& crossing : context.found[i]) crossing.t += starts[i];
+    }
+  }
+
+  // Sideways, in a direction of no meaning.
+  Line shifted(const Line& line, int shift) const {
+    const glm::vec3 axis = std::abs(line.direction.x) < 0.6f ? glm::vec3(1.0f, 0.3f, 0.2f) : glm::vec3(0.2f, 1.0f, 0.3f);
+    const glm::vec3 sideways = glm::normalize(glm::cross(line.direction, axis));
+    return {line.origin + (kShift * 2.0f * reach * static_cast<float>(shift)) * sideways, line.direction};
+  }
+
+  std::array<float, kPacket> intersect(std::span<const Line> lines, RTCIntersectContext& context) const {
     RTCRayHit16 packet;
     std::array<float, kPacket> starts{};
     alignas(64) std::array<int, kPacket> valid{};
@@ -134,23 +169,20 @@ struct RayScene::Impl {
     return false;
   }
 
-  // Sorts one line's crossings and moves them behind those of the lines before it, each place once.
-  void append_sorted(std::vector<LineCrossing>& found, std::vector<LineCrossing>& crossings) const {
+  // By rising t, each place once.
+  void sort_and_unite(std::vector<LineCrossing>& found) const {
     std::sort(found.begin(), found.end(), [](const LineCrossing& a, const LineCrossing& b) {
       return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
     });
-    const std::size_t first = crossings.size();
-    for (const LineCrossing& crossing : found) {
-      const auto is_the_same = [&](const LineCrossing& other) {
-        return other.exit == crossing.exit && are_neighbours(other.triangle, crossing.triangle);
-      };
+    std::size_t kept = 0;
+    for (const LineCrossing crossing : found) {
       bool seen = false;
-      for (std::size_t i = crossings.size(); !seen && i > first && crossing.t - crossings[i - 1].t <= same_place; --i) {
-        seen = is_the_same(crossings[i - 1]);
+      for (std::size_t i = kept; !seen && i > 0 && crossing.t - found[i - 1].t <= same_place; --i) {
+        seen = found[i - 1].exit == crossing.exit && are_neighbours(found[i - 1].triangle, crossing.triangle);
       }
-      if (!seen) crossings.push_back(crossing);
+      if (!seen) found[kept++] = crossing;
     }
-    found.clear();
+    found.resize(kept);
   }
 };
 
@@ -195,15 +227,32 @@ void RayScene::cast(std::span<const Line> lines, std::span<LineExtremes> extreme
   rtcInitIntersectContext(&context.embree);
   context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   context.embree.filter = record_extremes;
+  std::vector<std::uint32_t> doubtful;
   for (std::size_t first = 0; first < lines.size(); first += kPacket) {
     const std::size_t count = std::min<std::size_t>(kPacket, lines.size() - first);
-    context.entries.fill(LineExtremes{}.first_entry);
-    context.exits.fill(LineExtremes{}.last_exit);
-    context.counts.fill(0);
-    const std::array<float, kPacket> starts = impl_->cast_packet(lines.subspan(first, count), context.embree);
+    const std::array<float, kPacket> starts = impl_->cast_packet(lines.subspan(first, count), context);
     for (std::size_t i = 0; i < count; ++i) {
       extremes[first + i] = {starts[i] + context.entries[i], starts[i] + context.exits[i], context.counts[i]};
+      if (context.balances[i] != 0 || context.counts[i] == 0) doubtful.push_back(static_cast<std::uint32_t>(first + i));
     }
+  }
+
+  std::array<Line, kPacket> shifted;
+  for (int shift = 1; shift <= kShifts && !doubtful.empty(); ++shift) {
+    std::vector<std::uint32_t> still;
+    for (std::size_t first = 0; first < doubtful.size(); first += kPacket) {
+      const std::size_t count = std::min<std::size_t>(kPacket, doubtful.size() - first);
+      for (std::size_t i = 0; i < count; ++i) shifted[i] = impl_->shifted(lines[doubtful[first + i]], shift);
+      const std::array<float, kPacket> starts = impl_->cast_packet(std::span(shifted).first(count), context);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (context.balances[i] != 0) still.push_back(doubtful[first + i]);  // an open mesh: the line itself counts
+        else if (context.counts[i] != 0) {
+          extremes[doubtful[first + i]] = {starts[i] + context.entries[i], starts[i] + context.exits[i],
+                                           context.counts[i]};
+        }
+      }
+    }
+    doubtful = std::move(still);
   }
 }
 
@@ -211,24 +260,34 @@ void RayScene::cast_all(std::span<const Line> lines, std::vector<std::uint32_t>&
                         std::vector<LineCrossing>& crossings) const {
   starts.assign(1, 0);
   crossings.clear();
-  std::array<std::vector<LineCrossing>, kPacket> found;
   CrossingsContext context;
   rtcInitIntersectContext(&context.embree);
   context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   context.embree.filter = record_crossings;
-  for (std::size_t i = 0; i < kPacket; ++i) context.crossings[i] = &found[i];
+  std::vector<LineCrossing> again;
   for (std::size_t first = 0; first < lines.size(); first += kPacket) {
     const std::size_t count = std::min<std::size_t>(kPacket, lines.size() - first);
-    std::array<float, kPacket> offsets{};
     if (impl_->scene != nullptr) {
-      offsets = impl_->cast_packet(lines.subspan(first, count), context.embree);
+      impl_->cast_packet(lines.subspan(first, count), context);
     } else {
-      for (std::size_t i = 0; i < count; ++i) cross_line_reference(impl_->plain, lines[first + i], found[i]);
+      for (std::size_t i = 0; i < count; ++i) cross_line_reference(impl_->plain, lines[first + i], context.found[i]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      for (LineCrossing& crossing : found[i]) crossing.t += offsets[i];
-      impl_->append_sorted(found[i], crossings);
+      std::vector<LineCrossing> found = std::move(context.found[i]);
+      impl_->sort_and_unite(found);
+      for (int shift = 1; impl_->scene != nullptr && shift <= kShifts && is_doubtful(found); ++shift) {
+        const Line line = impl_->shifted(lines[first + i], shift);
+        CrossingsContext alone;
+        alone.embree = context.embree;
+        impl_->cast_packet(std::span(&line, 1), alone);
+        again = std::move(alone.found[0]);
+        impl_->sort_and_unite(again);
+        if (!is_doubtful(again)) found = again;
+        else if (again.empty()) break;
+      }
+      crossings.insert(crossings.end(), found.begin(), found.end());
       starts.push_back(static_cast<std::uint32_t>(crossings.size()));
+      context.found[i].clear();
     }
   }
 }

@@ -12,7 +12,8 @@
 //
 // Embree visits each line once, 16 at a time, through a filter function that records and rejects. Its robust
 // traversal lets no line slip between two triangles that share an edge; such a crossing may be seen twice, which
-// extremes do not mind and which `cast_all` takes out.
+// extremes do not mind and which `cast_all` takes out. Through a vertex, to rounding, a line may still slip: lines that
+// enter the mesh and leave it unequally often, or not at all, are cast again, shifted by millionths of its size.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "modules/muscle/asset/fit/fit_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <optional>
 
@@ -106,7 +107,13 @@ void FitSurface::find_inside(std::span<const Line> lines, std::vector<std::uint3
 }
 
 void FitSurface::cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
-  if (sound_) return scene_.cast(lines, extremes);
+  if (sound_) {
+    scene_.cast(lines, extremes);
+    for (LineExtremes& found : extremes) {  // seen from one side alone, the line no more than touches the mesh
+      if (std::isinf(found.first_entry) || std::isinf(found.last_exit)) found = {};
+    }
+    return;
+  }
   std::vector<std::uint32_t> starts;
   std::vector<InsideInterval> intervals;
   find_inside(lines, starts, intervals);
