@@ -18,6 +18,8 @@ using Command = std::function<int()>;
 
 // import-osim MODEL.osim [--out FILE] [--geometry DIR]: a character file from an OpenSim model.
 void add_import_osim(CLI::App& program, Command& chosen);
+// fit CHARACTER|MESH: muscles fitted to their meshes, reported, stored.
+void add_fit(CLI::App& program, Command& chosen);
 // counts CHARACTER: sections and vertices at several levels of detail.
 void add_counts(CLI::App& program, Command& chosen);
 

@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
   program.footer("Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage.");
   cook::Command chosen;
   cook::add_import_osim(program, chosen);
+  cook::add_fit(program, chosen);
   cook::add_counts(program, chosen);
   try {
     program.parse(argc, argv);
