@@ -19,7 +19,8 @@ Bounds mesh_bounds(const TriangleMesh& mesh);
 // m^2.
 double mesh_area(const TriangleMesh& mesh);
 
-// m^3: positive for a closed mesh whose triangles turn anticlockwise seen from outside. Shells that overlap count twice.
+// m^3: positive for a closed mesh whose triangles turn anticlockwise seen from outside. Where shells overlap it counts
+// twice.
 double mesh_volume(const TriangleMesh& mesh);
 
 }  // namespace fascicle

@@ -17,6 +17,8 @@ struct Overlay::State {
 
 namespace {
 
+constexpr float kSwatchStep = 1.4f;  // of the text's height, from a swatch to its text
+
 void map_keys(ImGuiIO& io) {
   const auto map = [&io](ImGuiKey key, Key ours) { io.KeyMap[key] = static_cast<int>(ours); };
   map(ImGuiKey_Tab, Key::tab);
@@ -116,6 +118,35 @@ OverlayActions Overlay::draw(const OverlayModel& model, const InputState& input,
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   renderer.timer().end_pass();
   return actions;
+}
+
+void Overlay::draw_captions(std::span<const Caption> captions, float size, Renderer& renderer) {
+  ImGui::SetCurrentContext(state_->context);
+  feed({}, 0.0f, renderer.width(), renderer.height(), ImGui::GetIO());
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  for (const Caption& caption : captions) {
+    ImVec2 at(caption.at.x, caption.at.y);
+    if (caption.swatch) {
+      list.AddRectFilled(at, ImVec2(at.x + size, at.y + size), caption.colour, 0.15f * size);
+      at.x += kSwatchStep * size;
+    }
+    list.AddText(ImGui::GetFont(), size, at, caption.swatch ? 0xffffffffu : caption.colour, caption.text.data(),
+                 caption.text.data() + caption.text.size());
+  }
+  ImGui::Render();
+  renderer.bind_target();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+float Overlay::text_width(std::string_view text, float size) const {
+  ImGui::SetCurrentContext(state_->context);
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  fonts.GetTexDataAsAlpha8(&pixels, &width, &height);  // makes the font where no picture has done so yet
+  return fonts.Fonts[0]->CalcTextSizeA(size, 1e9f, 0.0f, text.data(), text.data() + text.size()).x;
 }
 
 bool Overlay::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }

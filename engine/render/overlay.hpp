@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <glm/vec2.hpp>
+
 #include "engine/content/result.hpp"
 #include "engine/render/input.hpp"
 
@@ -79,6 +81,14 @@ struct OverlayActions {
   bool hide_overlay = false;
 };
 
+// A line of text over the picture.
+struct Caption {
+  glm::vec2 at{0.0f};                    // pixels from the picture's top left corner to the text's
+  std::string text;
+  std::uint32_t colour = 0xffffffffu;    // sRGB, R in the lowest byte: of the text, or of its swatch
+  bool swatch = false;                   // a square of that colour stands before it, the text is white
+};
+
 class Overlay {
  public:
   // Needs the renderer's context current. One overlay at a time.
@@ -90,6 +100,11 @@ class Overlay {
   // Lays out and draws over the renderer's picture (after Renderer::draw, before present or read_image).
   // `delta_seconds` is the wall time since the last frame.
   OverlayActions draw(const OverlayModel& model, const InputState& input, float delta_seconds, Renderer& renderer);
+
+  // Draws lines of text of this height (pixels) over the renderer's picture, and nothing else.
+  void draw_captions(std::span<const Caption> captions, float size, Renderer& renderer);
+  // Pixels that a line of text takes.
+  float text_width(std::string_view text, float size) const;
 
   // Of the last draw: the pointer or keyboard is the overlay's, not the camera's.
   bool wants_mouse() const;

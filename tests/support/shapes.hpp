@@ -29,7 +29,8 @@ inline TriangleMesh make_box(const glm::vec3& lower, const glm::vec3& upper) {
   for (std::uint32_t i = 0; i < 8; ++i) {
     mesh.positions.emplace_back((i & 1) ? upper.x : lower.x, (i & 2) ? upper.y : lower.y, (i & 4) ? upper.z : lower.z);
   }
-  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                  2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
   return mesh;
 }
 
@@ -51,7 +52,8 @@ inline TriangleMesh make_wall(std::span<const glm::vec2> outline, float bottom, 
 }
 
 // Poles on the z axis. `rings` rows of triangles from pole to pole; an even number puts vertices on the equator.
-inline TriangleMesh make_sphere(float radius, std::uint32_t rings, std::uint32_t segments, const glm::vec3& centre = {}) {
+inline TriangleMesh make_sphere(float radius, std::uint32_t rings, std::uint32_t segments,
+                                const glm::vec3& centre = {}) {
   TriangleMesh mesh;
   mesh.positions.push_back(centre + glm::vec3(0, 0, radius));
   for (std::uint32_t k = 1; k < rings; ++k) {

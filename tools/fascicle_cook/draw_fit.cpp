@@ -61,8 +61,8 @@ Paint paint_of(const PicturedMuscle& muscle, std::uint32_t section) {
 std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh) {
   std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const glm::vec3 a = mesh.positions[mesh.indices[i]];
-    const glm::vec3 normal = glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+    const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]];
+    const glm::vec3 normal = glm::cross(b - a, mesh.positions[mesh.indices[i + 2]] - a);
     for (std::size_t corner = i; corner < i + 3; ++corner) normals[mesh.indices[corner]] += normal;
   }
   for (glm::vec3& normal : normals) {
@@ -94,7 +94,8 @@ Stretches make_stretches(const PicturedMuscle& pictured) {
           side < 0 ? std::max(k, 1u) - 1 : std::min(k + static_cast<std::uint32_t>(side), sections - 1);
       for (std::uint32_t i = 0; i < around; ++i) {
         const std::uint32_t a = k * around + i, b = other * around + i;
-        result.vertices.push_back({0.5f * (surface.positions[a] + surface.positions[b]), pack_normal(normals[a] + normals[b])});
+        result.vertices.push_back(
+            {0.5f * (surface.positions[a] + surface.positions[b]), pack_normal(normals[a] + normals[b])});
       }
       result.rows.push_back({1.0f, static_cast<std::uint32_t>(paint_of(pictured, k))});
     }
@@ -109,7 +110,8 @@ Stretches make_stretches(const PicturedMuscle& pictured) {
   }
   for (const std::uint32_t end : {0u, 1u}) {
     const std::uint32_t centre = 3 * sections * around + end, first = end == 0 ? 0 : (3 * sections - 1) * around;
-    result.vertices.push_back({surface.positions[sections * around + end], pack_normal(normals[sections * around + end])});
+    const std::uint32_t cap = sections * around + end;
+    result.vertices.push_back({surface.positions[cap], pack_normal(normals[cap])});
     result.topology.fan_indices.push_back(centre);
     for (std::uint32_t i = 0; i <= around; ++i) {
       result.topology.fan_indices.push_back(first + (end == 0 ? around - i : i) % around);
@@ -156,7 +158,7 @@ class FitArtist {
     std::ranges::copy(stretches.vertices, renderer_.strip_vertices(strips).begin());
     std::ranges::copy(stretches.rows, renderer_.strip_rows(strips).begin());
     const std::span<StripItem> items = renderer_.strip_items(strips);
-    for (std::size_t paint = 0; paint < kPaints; ++paint) items[paint].belly_colour = pack_colour(kStyles[paint].colour);
+    for (std::size_t i = 0; i < kPaints; ++i) items[i].belly_colour = pack_colour(kStyles[i].colour);
     const TriangleMesh surface = muscle::rest_surface(*pictured.asset, pictured.muscle);
     points_.insert(points_.end(), surface.positions.begin(), surface.positions.end());
     const std::uint32_t sections = pictured.asset->muscles[pictured.muscle].section_count;
@@ -225,8 +227,8 @@ class FitArtist {
     float distance = 0.0f;
     for (const glm::vec3& point : points_) {
       const glm::vec3 p = point - look.camera.target;
-      distance = std::max(distance, glm::dot(p, look.back) + kMargin * std::max(std::abs(glm::dot(p, look.up)) / tall,
-                                                                                std::abs(glm::dot(p, look.right)) / wide));
+      const float needed = std::max(std::abs(glm::dot(p, look.up)) / tall, std::abs(glm::dot(p, look.right)) / wide);
+      distance = std::max(distance, glm::dot(p, look.back) + kMargin * needed);
     }
     view.camera.distance = std::clamp(distance, 0.02f, 200.0f);
     view.skin_opacity = kMeshOpacity;
@@ -275,7 +277,7 @@ class FitArtist {
 
 Diagnostics draw_fit(const FitPicture& picture, const std::filesystem::path& png) {
   if (picture.muscles.empty()) {
-    return {{{png.string(), 0, 0, "", "there is no muscle to draw", "choose a character whose muscles have meshes"}}, {}};
+    return {{{png.string(), 0, 0, "", "there is no muscle to draw", "choose one whose muscles have meshes"}}, {}};
   }
   auto headless = Headless::create();
   if (!headless) return headless.diagnostics();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/geometry/mesh_measures.hpp"
@@ -31,7 +32,8 @@ TEST(MeshDistance, ASpacingThatIsNoneIsTheLeast) {
   const ClosestPoints floor(floor_mesh());
   TriangleMesh small = plate(1, 0);
   for (const double spacing : {1e-9, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    const SurfaceDistance found = measure_distance(small, floor, spacing, [](const glm::vec3& p) { return p.x < 1e-5f; });
+    const auto few = [](const glm::vec3& p) { return p.x < 1e-5f; };
+    const SurfaceDistance found = measure_distance(small, floor, spacing, few);
     EXPECT_GT(found.samples, 0u) << spacing;
     EXPECT_LT(found.samples, kMostSamples / 1000);
   }
@@ -64,10 +66,10 @@ TEST(MeshDistance, ARampRisesEvenly) {
 }
 
 TEST(MeshDistance, LargeTrianglesWeighByTheirArea) {
-  // A square at height 1, and as many triangles again in a speck at height 0.5: the speck hardly counts but for nothing.
+  // A square at height 1, and many triangles more in a speck at height 0.5, which hardly count.
   TriangleMesh mesh = plate(1, 0);
   for (int i = 0; i < 50; ++i) {
-    mesh = test::join(mesh, test::moved(plate(0.5f, 0), glm::mat4(1e-3f, 0, 0, 0, 0, 1e-3f, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)));
+    mesh = test::join(mesh, test::moved(plate(0.5f, 0), glm::scale(glm::mat4(1.0f), {1e-3f, 1e-3f, 1.0f})));
   }
   const SurfaceDistance found = measure_distance(mesh, ClosestPoints(floor_mesh()), 0.02);
   EXPECT_NEAR(found.mean, 1.0, 1e-3);

@@ -114,10 +114,13 @@ TEST(SliceMesh, EveryLoopOfAClosedMeshCloses) {
   for (int i = 0; i < 300; ++i) {
     // Through a vertex, or through three.
     const auto vertex = [&] {
-      return glm::dvec3(torus.positions[static_cast<std::size_t>(numbers.next() * static_cast<float>(torus.positions.size()))]);
+      const float count = static_cast<float>(torus.positions.size());
+      return glm::dvec3(torus.positions[static_cast<std::size_t>(numbers.next() * count)]);
     };
     const glm::dvec3 a = vertex();
-    const SlicePlane plane = plane_across(a, i % 2 == 0 ? glm::dvec3(numbers.point(-1, 1)) : glm::cross(vertex() - a, vertex() - a));
+    const glm::dvec3 normal =
+        i % 2 == 0 ? glm::dvec3(numbers.point(-1, 1)) : glm::cross(vertex() - a, vertex() - a);
+    const SlicePlane plane = plane_across(a, normal);
     for (const SliceLoop& loop : slice_mesh(torus, plane)) {
       EXPECT_TRUE(loop.closed);
       EXPECT_TRUE(std::isfinite(loop.area) && std::isfinite(loop.perimeter) && std::isfinite(loop.centroid.x));
@@ -219,7 +222,8 @@ TEST(SliceMesh, PlacesFarFromTheOriginLoseNothing) {
 }
 
 TEST(PlaneAcross, IsSquareAndOfUnitLength) {
-  for (const glm::dvec3& n : {glm::dvec3(0, 0, 5), glm::dvec3(1, 1, 1), glm::dvec3(-3, 0.1, 0), glm::dvec3(0, -2, 1e-9)}) {
+  for (const glm::dvec3& n :
+       {glm::dvec3(0, 0, 5), glm::dvec3(1, 1, 1), glm::dvec3(-3, 0.1, 0), glm::dvec3(0, -2, 1e-9)}) {
     const SlicePlane plane = plane_across({1, 2, 3}, n);
     EXPECT_NEAR(glm::length(plane.u), 1.0, 1e-12);
     EXPECT_NEAR(glm::length(plane.v), 1.0, 1e-12);

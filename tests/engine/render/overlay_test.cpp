@@ -67,6 +67,25 @@ OverlayModel make_model() {
   return model;
 }
 
+TEST_F(OverlayTest, CaptionsStandWhereTheyAreSaid) {
+  const float width = overlay_->text_width("fitted", 26.0f);
+  EXPECT_GT(width, 40.0f);
+  EXPECT_NEAR(overlay_->text_width("fittedfitted", 26.0f), 2.0f * width, 2.0f);
+  EXPECT_EQ(overlay_->text_width("", 26.0f), 0.0f);
+  renderer_->draw(test_view());
+  const Caption captions[] = {{{100.0f, 50.0f}, "fitted", 0xff00ff00u, true}};
+  overlay_->draw_captions(captions, 26.0f, *renderer_);
+  const Image picture = renderer_->read_image();
+  const std::uint8_t* swatch = picture.pixel(113, 63);
+  EXPECT_TRUE(swatch[0] == 0 && swatch[1] == 255 && swatch[2] == 0);
+  const Coverage covered = measure(picture);  // all of it within swatch and text
+  EXPECT_GE(covered.left, 99);
+  EXPECT_LE(covered.right, 100 + 40 + static_cast<int>(width));
+  EXPECT_GT(covered.right, 140);
+  EXPECT_GE(covered.top, 49);
+  EXPECT_LE(covered.bottom, 77);
+}
+
 TEST_F(OverlayTest, OnlyOneAtATime) { EXPECT_FALSE(Overlay::create().ok()); }
 
 TEST_F(OverlayTest, DrawsPanelsAndLeavesTheRestAlone) {
