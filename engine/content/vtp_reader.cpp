@@ -136,7 +136,8 @@ class VtpParser {
       error(piece, -1, "no <Points> with a <DataArray>", "add the points");
       return false;
     }
-    if (read_vectors(points, mesh_.positions)) check_count(piece, "NumberOfPoints", mesh_.positions.size() - first);
+    if (!read_vectors(points, mesh_.positions)) return false;
+    check_count(piece, "NumberOfPoints", mesh_.positions.size() - first);
     const std::size_t count = mesh_.positions.size() - first;
     if (mesh_.positions.size() > kMaxPoints) error(points, -1, "too many points", "split the mesh");
     const bool has_normals = read_normals(piece, count);
@@ -144,7 +145,8 @@ class VtpParser {
     read_cells(piece, "Strips", "NumberOfStrips", first, count);
     for (const char* name : {"Lines", "Verts"}) {
       const pugi::xml_node array = piece.child(name).find_child_by_attribute("DataArray", "Name", "connectivity");
-      if (skip_space(array.child_value()) != nullptr)
+      const pugi::xml_attribute given = piece.attribute(fmt::format("NumberOf{}", name).c_str());
+      if (given ? given.value() != std::string_view("0") : skip_space(array.child_value()) != nullptr)
         warning(piece.child(name), "ignored", "only polygons and strips are read");
     }
     return has_normals;
@@ -215,13 +217,18 @@ class VtpParser {
   }
 
   // --- arrays ---
-  // The text of an array; nullptr after an error.
-  const char* text_of(pugi::xml_node array) {
-    if (array.first_child() != array.last_child() || array.first_child().type() == pugi::node_element) {
-      error(array, -1, "elements inside an array", "an array holds numbers only");
-      return nullptr;
+  // The text of an array, beside which VTK writes what it knows about the array in elements; nothing after an error.
+  std::optional<pugi::xml_node> text_of(pugi::xml_node array) {
+    pugi::xml_node text;
+    for (const pugi::xml_node child : array.children()) {
+      if (child.type() == pugi::node_element && child.name() == std::string_view("InformationKey")) continue;
+      if (child.type() == pugi::node_element || text) {
+        error(array, -1, "elements inside an array", "an array holds numbers only");
+        return std::nullopt;
+      }
+      text = child;
     }
-    return array.child_value();
+    return text;
   }
 
   static const char* skip_space(const char* at) {
@@ -238,9 +245,10 @@ class VtpParser {
       error(array, -1, fmt::format("format is \"{}\"", format), "save it as ascii, binary or appended");
       return false;
     }
-    const char* const begin = text_of(array);
-    if (begin == nullptr) return false;
-    const std::ptrdiff_t offset = std::max<std::ptrdiff_t>(array.first_child().offset_debug(), 0);
+    const std::optional<pugi::xml_node> text = text_of(array);
+    if (!text) return false;
+    const char* const begin = text->value();
+    const std::ptrdiff_t offset = std::max<std::ptrdiff_t>(text->offset_debug(), 0);
     for (const char* at = skip_space(begin); at != nullptr;) {
       const char* end = at;
       while (*end != '\0' && !is_space(*end)) ++end;
@@ -265,7 +273,9 @@ class VtpParser {
             "name one of VTK's types of numbers, such as Float32");
       return false;
     }
-    const VtpArray decoded = decode(array);
+    const std::optional<pugi::xml_node> text = text_of(array);
+    if (!text) return false;
+    const VtpArray decoded = decode(array, *text);
     const std::size_t size = byte_size(*type), count = decoded.bytes.size() / size;
     if (!decoded.fault.empty()) {
       error(array, -1, decoded.fault, "is the file complete?");
@@ -286,10 +296,9 @@ class VtpParser {
     return true;
   }
 
-  VtpArray decode(pugi::xml_node array) {
+  VtpArray decode(pugi::xml_node array, pugi::xml_node text) const {
     if (array.attribute("format").value() == std::string_view("binary")) {
-      const char* const text = text_of(array);
-      std::string digits = text == nullptr ? "" : text;
+      std::string digits = text.value();
       std::erase_if(digits, is_space);
       return decode_vtp_base64(digits, encoding_);
     }
