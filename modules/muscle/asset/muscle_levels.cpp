@@ -16,7 +16,8 @@ namespace fascicle::muscle {
 namespace {
 
 constexpr float kSamePlace = 1.0e-5f;      // m
-constexpr double kMostRoll = 0.7;          // cosine of the angle between two levels' section directions
+constexpr double kSameTurn = 1.0e-4;       // vertices: a rounding
+constexpr double kPi = 3.14159265358979323846;
 constexpr float kSmallestError = 1.0e-6f;  // m
 
 std::vector<std::int32_t> points_by_slot(const MuscleAsset& asset) {
@@ -111,6 +112,11 @@ std::optional<Diagnostic> find_mismatch(const Level& fine, const Level& coarse, 
 
 // --- What the finer level becomes.
 
+// From `u` of one frame to `direction`, rad, within half a turn.
+double angle_between(const glm::dvec3& direction, const glm::dvec3& u, const glm::dvec3& v) {
+  return std::atan2(glm::dot(direction, v), glm::dot(direction, u));
+}
+
 // Of a section of the finer level: the coarser section that it becomes, or the one before it where it lies between two.
 struct Place {
   std::uint32_t section = 0;
@@ -146,12 +152,31 @@ std::vector<PointBinding> morph_points(const Level& fine, const Level& coarse) {
   return points;
 }
 
-std::vector<EndFrame> morph_ends(const MuscleAsset& fine, const MuscleAsset& coarse) {
-  std::vector<EndFrame> ends = fine.ends;
-  for (std::uint32_t m = 0; m < fine.size(); ++m) {
+// Two levels may count a muscle's vertices from different directions: the finer level's vertex 0 is to lie where the
+// coarser one's would be this many turns further on. Whole vertices, so that vertices meet vertices, and the nearest,
+// so that the muscle is not seen to turn as it morphs.
+double find_shift(const Level& fine, const Level& coarse, std::uint32_t m) {
+  const double count = fine.asset.muscles[m].section_vertices;
+  return std::round(count * angle_between(fine.u(m, 0), coarse.u(m, 0), coarse.v(m, 0)) / (2.0 * kPi)) / count;
+}
+
+// `from` turned about its tangent. Bones may be scaled, but evenly.
+EndFrame turn_end(const EndFrame& from, double turns) {
+  const glm::dvec3 t(from.tangent[0], from.tangent[1], from.tangent[2]);
+  const glm::dvec3 u(from.reference[0], from.reference[1], from.reference[2]);
+  const glm::dvec3 turned =
+      std::cos(2.0 * kPi * turns) * u + std::sin(2.0 * kPi * turns) * glm::cross(glm::normalize(t), u);
+  EndFrame to = from;
+  for (int i = 0; i < 3; ++i) to.reference[i] = static_cast<float>(turned[i]);
+  return to;
+}
+
+std::vector<EndFrame> morph_ends(const Level& fine, const Level& coarse) {
+  std::vector<EndFrame> ends = fine.asset.ends;
+  for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
     for (std::size_t end = 0; end < 2; ++end) {
-      ends[std::size_t{2} * fine.muscles[m].lane_index + end] =
-          coarse.ends[std::size_t{2} * coarse.muscles[m].lane_index + end];
+      const EndFrame& from = coarse.asset.ends[std::size_t{2} * coarse.asset.muscles[m].lane_index + end];
+      ends[std::size_t{2} * fine.asset.muscles[m].lane_index + end] = turn_end(from, find_shift(fine, coarse, m));
     }
   }
   return ends;
@@ -182,11 +207,12 @@ struct MorphedLines {
       for (std::size_t end = 0; end < 2; ++end) {
         const std::uint32_t k = end == 0 ? 0 : coarse.asset.muscles[m].section_count - 1;
         const glm::dvec3 u = coarse.u(m, k), t = glm::cross(u, coarse.v(m, k));
-        EndFrame& frame = ends[std::size_t{2} * layout.lane_index + end];
+        EndFrame frame;
         for (int i = 0; i < 3; ++i) {
           frame.tangent[i] = static_cast<float>(t[i]);
           frame.reference[i] = static_cast<float>(u[i]);
         }
+        ends[std::size_t{2} * layout.lane_index + end] = turn_end(frame, find_shift(fine, coarse, m));
       }
     }
     AlignedVector<float> arc(asset.slot_count), twist(asset.lane_count, 0.0f);
@@ -211,11 +237,13 @@ struct MorphedLines {
   }
 };
 
-// The radius at the angle half way between two neighbours' on the chord between them, `half` rad from either. Where
-// they have different signs no radius leads to the chord; then the one nearest to it.
-double chord_radius(double a, double b, double half) {
-  if (a * b <= 0.0) return std::cos(half) * (std::abs(a) < std::abs(b) ? a : b);
-  return 2.0 * a * b * std::cos(half) / (a + b);
+// The radius of the point on the chord between neighbours of radii `a` and `b` that is `after_a` rad from the former
+// and `before_b` rad from the latter. Where they have different signs no radius leads to the chord; then the one that
+// leads nearest to an end of it.
+double chord_radius(double a, double b, double after_a, double before_b) {
+  if (a * b > 0.0) return a * b * std::sin(after_a + before_b) / (a * std::sin(after_a) + b * std::sin(before_b));
+  const bool nearer_a = std::abs(a * std::sin(after_a)) <= std::abs(b * std::sin(before_b));
+  return nearer_a ? a * std::cos(after_a) : b * std::cos(before_b);
 }
 
 // Where the line origin + r direction meets a triangle.
@@ -232,15 +260,24 @@ std::optional<double> meet_triangle(const glm::dvec3& origin, const glm::dvec3& 
   return glm::dot(ac, q) / determinant;
 }
 
-// The radius that leads from `centre`, between coarse sections K and K + 1, along `direction` onto the surface between
-// them, where vertex j or the side after it lies. Where nothing is met: nearest to that place.
-double strip_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, std::uint32_t j, bool side,
-                    const glm::dvec3& centre, const glm::dvec3& direction) {
+// The radius along `direction`, `turn` vertices after vertex 0, that lies on the coarse section.
+double section_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, double turn) {
   const std::uint32_t count = coarse.asset.muscles[m].section_vertices;
-  const glm::dvec3 place = 0.5 * (coarse.vertex(m, K, j) + coarse.vertex(m, K + 1, side ? j + 1 : j));
-  const double expected = glm::dot(place - centre, direction);
+  const double j = std::floor(turn), step = 2.0 * kPi / count;
+  const std::uint32_t first = static_cast<std::uint32_t>(j);
+  return chord_radius(coarse.radius(m, K, first), coarse.radius(m, K, first + 1), (turn - j) * step,
+                      (j + 1.0 - turn) * step);
+}
+
+// The radius that leads from `centre`, between coarse sections K and K + 1, along `direction` onto the surface between
+// them, where it lies about `turn` vertices after vertex 0. Where nothing is met: the mean of the two sections'.
+double strip_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, double turn, const glm::dvec3& centre,
+                    const glm::dvec3& direction) {
+  const std::uint32_t count = coarse.asset.muscles[m].section_vertices;
+  const double expected = 0.5 * (section_radius(coarse, m, K, turn) + section_radius(coarse, m, K + 1, turn));
   double best = expected, best_off = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = j + count - 1; i <= j + count + 1; ++i) {
+  const std::uint32_t side = static_cast<std::uint32_t>(turn) + count;
+  for (std::uint32_t i = side - 1; i <= side + 1; ++i) {
     const glm::dvec3 a = coarse.vertex(m, K, i), b = coarse.vertex(m, K, i + 1);
     const glm::dvec3 c = coarse.vertex(m, K + 1, i), d = coarse.vertex(m, K + 1, i + 1);
     for (const std::optional<double> r : {meet_triangle(centre, direction, a, b, d),
@@ -257,48 +294,37 @@ double strip_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, std::
 void morph_radii(const Level& fine, const Level& coarse, LevelMorph& morph) {
   const MorphedLines lines(fine, coarse);
   morph.radii = fine.asset.rest_radii;
-  double error = 0.0;
+  double squares = 0.0;
+  std::size_t vertices = 0;
   for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
     const MuscleLayout& layout = fine.asset.muscles[m];
     const std::uint32_t count = layout.section_vertices;
-    const std::uint32_t ratio = count / coarse.asset.muscles[m].section_vertices;
+    const double coarse_count = coarse.asset.muscles[m].section_vertices;
     for (std::uint32_t k = 0; k < layout.section_count; ++k) {
       const Place place = coarse_place(fine, coarse, m, k);
       const std::uint32_t slot = fine.asset.slot(m, k);
       const glm::dvec3 centre(lines.x[slot], lines.y[slot], lines.z[slot]);
       const glm::dvec3 u(lines.ux[slot], lines.uy[slot], lines.uz[slot]);
       const glm::dvec3 v(lines.vx[slot], lines.vy[slot], lines.vz[slot]);
+      // How far the sections are turned against the coarser ones, which two chains of frames never quite agree on.
+      const double roll = angle_between(u, coarse.u(m, place.section), coarse.v(m, place.section)) / (2.0 * kPi);
       float* const radii = &morph.radii[fine.asset.radius(m, k)];
       for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t j = i / ratio;
-        const bool side = i % ratio != 0;
+        double turn = coarse_count * (double(i) / count + roll);
+        if (std::abs(turn - std::round(turn)) < kSameTurn) turn = std::round(turn);
+        turn -= coarse_count * std::floor(turn / coarse_count);
         const glm::dvec3 direction = fine.along(m, i, u, v);
-        double r = coarse.radius(m, place.section, j);
-        if (place.between) {
-          r = strip_radius(coarse, m, place.section, j, side, centre, direction);
-        } else if (side) {
-          r = chord_radius(r, coarse.radius(m, place.section, j + 1), 3.14159265358979323846 / count);
-        }
+        const double r = place.between ? strip_radius(coarse, m, place.section, turn, centre, direction)
+                                       : section_radius(coarse, m, place.section, turn);
         radii[i] = static_cast<float>(r);
-        error = std::max(error, std::abs(glm::dot(centre + r * direction - fine.vertex(m, k, i), direction)));
+        const double moved = glm::dot(centre + r * direction - fine.vertex(m, k, i), direction);
+        squares += moved * moved;
+        ++vertices;
       }
       for (std::uint32_t i = count; i < layout.radius_stride; ++i) radii[i] = radii[i % count];
     }
   }
-  morph.error = static_cast<float>(error);
-}
-
-// A muscle that morphs while its sections turn.
-std::optional<Diagnostic> find_roll(const Level& fine, const Level& coarse, std::uint32_t m) {
-  const MuscleLayout& a = fine.asset.muscles[m];
-  const double cosine = std::min(glm::dot(fine.u(m, 0), coarse.u(m, 0)),
-                                 glm::dot(fine.u(m, a.section_count - 1),
-                                          coarse.u(m, coarse.asset.muscles[m].section_count - 1)));
-  if (cosine > kMostRoll) return std::nullopt;
-  return Diagnostic{.file = {}, .line = 0, .column = 0, .path = a.name,
-                    .cause = fmt::format("its sections turn by {:.0f} degrees from a level to the next coarser one",
-                                         std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951),
-                    .remedy = "move its first or last via point a little, so that all levels start alike"};
+  morph.error = static_cast<float>(std::sqrt(squares / static_cast<double>(std::max<std::size_t>(vertices, 1))));
 }
 
 void find_extent(const MuscleAsset& asset, MuscleLevels& levels) {
@@ -355,16 +381,12 @@ Result<std::shared_ptr<const MuscleLevels>> make_muscle_levels(
                         .remedy = "build all levels from the same muscles in the same order"};
     }
     for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
-      if (auto mismatch = find_mismatch(fine, coarse, m)) {
-        found.errors.push_back(std::move(*mismatch));
-      } else if (auto roll = find_roll(fine, coarse, m)) {
-        found.warnings.push_back(std::move(*roll));
-      }
+      if (auto mismatch = find_mismatch(fine, coarse, m)) found.errors.push_back(std::move(*mismatch));
     }
     if (!found.ok()) return found;
     LevelMorph& morph = levels->morphs.emplace_back();
     morph.points = morph_points(fine, coarse);
-    morph.ends = morph_ends(fine.asset, coarse.asset);
+    morph.ends = morph_ends(fine, coarse);
     morph_radii(fine, coarse, morph);
     total += double{std::max(morph.error, kSmallestError)};
     const float before = i == 0 ? 0.0f : kMorphBand * levels->morphs[i - 1].complete;

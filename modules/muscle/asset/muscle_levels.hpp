@@ -34,10 +34,10 @@ struct LevelMorph {
   std::vector<PointBinding> points;  // MuscleAsset::points; bones and slots are the same
   std::vector<EndFrame> ends;        // MuscleAsset::ends; bones are the same
   AlignedVector<float> radii;        // m; MuscleAsset::rest_radii
-  // m: the largest distance by which the rest shape's vertices move across the surface's direction.
+  // m: the root of the mean square by which the rest shape's vertices move in or out.
   float error = 0.0f;
-  // m a pixel from which on the morph is complete, where a pixel of error is allowed. It begins at this by kMorphBand.
-  // Bands of different levels do not overlap.
+  // m: this and all finer levels' errors. The morph is complete where that is as much as a viewer tolerates, and begins
+  // at this by kMorphBand; bands of different levels do not overlap.
   float complete = 0.0f;
 };
 inline constexpr float kMorphBand = 1.5f;
@@ -53,8 +53,7 @@ struct MuscleLevels {
 //
 // Errors, all in one go, each by the muscle's name: assets that do not hold the same muscles in the same order, with
 // the same attachments and tendons; |C| or LSS that are not the same or the next coarser; a level that a fit has
-// displaced under one that none has. Warns of muscles whose sections start from different directions in two levels:
-// they would turn while they morph.
+// displaced under one that none has.
 Result<std::shared_ptr<const MuscleLevels>> make_muscle_levels(
     std::span<const std::shared_ptr<const MuscleAsset>> finest_first);
 

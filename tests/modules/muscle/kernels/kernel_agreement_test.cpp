@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/muscle_state.hpp"
+#include "tests/support/synthetic_levels.hpp"
 #include "tests/support/synthetic_muscles.hpp"
 
 namespace fascicle::muscle {
@@ -110,6 +111,36 @@ INSTANTIATE_TEST_SUITE_P(Sizes, KernelAgreement,
                            return "C" + std::to_string(row.param.section_vertices) + "_LSS" +
                                   std::to_string(row.param.subdivision);
                          });
+
+// A level of detail half way to the next: points between two bindings.
+TEST(MorphedPoints, AgreeAndLieBetween) {
+  const auto levels = test::synthetic_levels({12, 2}, 2);
+  const std::vector<glm::mat4> bones = test::walk_bones(0.3f);
+  const auto place = [&](const MtuKernels& kernels, float morph) {
+    MuscleState state(levels->assets[0]);
+    state.musculature.coarser = levels->morphs.data();
+    state.musculature.morph = morph;
+    kernels.place_points(place_points_job(state.musculature, {bones, 0}, state.lines));
+    return state.lines;
+  };
+  const ActionLines from = place(mtu_kernels(SimdLevel::kPortable), 0.0f);
+  const ActionLines to = place(mtu_kernels(SimdLevel::kPortable), 1.0f);
+  const ActionLines between = place(mtu_kernels(SimdLevel::kPortable), 0.3f);
+  float furthest = 0.0f;
+  for (std::size_t i = 0; i < from.x.size(); ++i) {
+    EXPECT_NEAR(between.x[i], from.x[i] + 0.3f * (to.x[i] - from.x[i]), 1.0e-6f);
+    furthest = std::max(furthest, std::abs(to.x[i] - from.x[i]));
+  }
+  EXPECT_GT(furthest, 1.0e-4f);
+  for (const SimdLevel level : test::available_levels()) {
+    const ActionLines fast = place(mtu_kernels(level), 0.3f), plain = place(mtu_reference_kernels(level), 0.3f);
+    EXPECT_TRUE(same_bits(fast.x, between.x) && same_bits(fast.y, between.y) && same_bits(fast.z, between.z));
+    for (std::size_t i = 0; i < fast.x.size(); ++i) {
+      ASSERT_LT(glm::distance(glm::vec3(fast.x[i], fast.y[i], fast.z[i]), glm::vec3(plain.x[i], plain.y[i], plain.z[i])),
+                1.0e-6f);
+    }
+  }
+}
 
 TEST(CheckBones, EveryEntryIsSeen) {
   for (const SimdLevel level : test::available_levels()) {
