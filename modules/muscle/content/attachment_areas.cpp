@@ -59,7 +59,7 @@ std::vector<std::uint32_t> find_area(const AreaEntry& area, const AttachmentDesc
     triangles = triangles_where(mesh, [&](const glm::vec3& p) { return glm::distance(p, centre) <= area.within; });
   }
   if (triangles.empty()) {
-    area.node.warning(diagnostics, fmt::format("no triangle of the mesh lies in the area ({} mm)", 1000 * area.within),
+    area.node.warning(diagnostics, fmt::format("no triangle of the mesh lies in the area ({:.4g} mm)", 1000 * area.within),
                       "give a larger distance, or leave the area out; none is used");
   }
   return triangles;

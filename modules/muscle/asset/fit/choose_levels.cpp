@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array<std::uint32_t, 9> kSectionVertices{6, 8, 10, 12, 16, 20, 24, 30, 36};
 constexpr std::uint32_t kMostSubdivision = 5;
+constexpr float kAsGood = 1.05f;
 
 // All levels, those with fewer vertices first. Segments count alike for all muscles: what decides is |C| 2^LSS.
 std::vector<MuscleLevel> list_candidates() {
@@ -32,9 +33,17 @@ std::vector<MuscleLevel> list_candidates() {
 // One input's search: candidate after candidate until one keeps the bound.
 struct Search {
   std::size_t candidate = 0;
-  LevelChoice best;
-  bool any = false, done = false;
+  std::vector<LevelChoice> tried;  // in order: those with fewer vertices first
+  LevelChoice choice;              // once done
+  bool done = false;
 };
+
+// Where no level keeps the bound: more vertices than these do not help.
+LevelChoice choose_nearest(const std::vector<LevelChoice>& tried) {
+  float best = tried.front().distance;
+  for (const LevelChoice& one : tried) best = std::min(best, one.distance);
+  return *std::ranges::find_if(tried, [&](const LevelChoice& one) { return one.distance <= kAsGood * best; });
+}
 
 class Chooser {
  public:
@@ -44,7 +53,7 @@ class Chooser {
         searches_(inputs.size()) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const MuscleDescription& description = *inputs[i].description;
-      searches_[i].best = {{description.section_vertices, description.longitudinal_subdivision}, 0.0f, true};
+      searches_[i].choice = {{description.section_vertices, description.longitudinal_subdivision}, 0.0f, true};
       searches_[i].done = inputs[i].mesh == nullptr;
       if (!searches_[i].done) add_to_group(static_cast<std::uint32_t>(i));
     }
@@ -58,7 +67,7 @@ class Chooser {
   std::vector<LevelChoice> run() {
     while (std::ranges::any_of(groups_, [this](const Group& group) { return is_open(group); })) advance();
     std::vector<LevelChoice> choices;
-    for (const Search& search : searches_) choices.push_back(search.best);
+    for (const Search& search : searches_) choices.push_back(search.choice);
     return choices;
   }
 
@@ -86,7 +95,7 @@ class Chooser {
     std::vector<MuscleDescription> descriptions;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       const Search& search = searches_[i];
-      const MuscleLevel level = search.done ? search.best.level : candidates_[search.candidate];
+      const MuscleLevel level = search.done ? search.choice.level : candidates_[search.candidate];
       descriptions.push_back(*inputs_[i].description);
       descriptions.back().section_vertices = level.section_vertices;
       descriptions.back().longitudinal_subdivision = level.longitudinal_subdivision;
@@ -121,24 +130,28 @@ class Chooser {
     }
   }
 
-  // What cannot be fitted at one level cannot at any, but for those too coarse to be built.
+  // What cannot be fitted at the first level cannot at any.
   void give_up(Search& search) const {
-    if (!search.any) search.done = true;
-    next(search);
+    if (search.done) return;
+    if (search.tried.empty()) search.done = true;
+    else next(search);
   }
 
   void judge(std::size_t i, float distance) {
     Search& search = searches_[i];
-    if (!search.any || distance < search.best.distance) {
-      search.best = {candidates_[search.candidate], distance, distance <= max_distances_[i]};
+    search.tried.push_back({candidates_[search.candidate], distance, distance <= max_distances_[i]});
+    if (search.tried.back().kept) {
+      search.choice = search.tried.back();
+      search.done = true;
+    } else {
+      next(search);
     }
-    search.any = true;
-    search.done = distance <= max_distances_[i];
-    next(search);
   }
 
   void next(Search& search) const {
-    if (++search.candidate == candidates_.size()) search.done = true;
+    if (++search.candidate < candidates_.size()) return;
+    search.choice = choose_nearest(search.tried);
+    search.done = true;
   }
 
   std::span<const FitInput> inputs_;
