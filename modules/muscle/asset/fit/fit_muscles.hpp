@@ -26,7 +26,9 @@ namespace fascicle::muscle {
 struct FitOptions {
   std::uint32_t supersampling = 3;  // CSS, >= 1: CSS |C| rays a section find the inner points
   bool restore_ends = true;         // off for the article's table 4
-  bool rescue = true;               // put centres that the rays left outside into the slice (ours); off for table 4
+  // Ours; off for table 4: keep to one loop where a plane cuts the mesh in several, and put centres that the rays left
+  // outside deep into the slice.
+  bool rescue = true;
   bool plain_rays = false;          // the plain loop over all triangles in place of Embree: for tests and benchmarks
 };
 

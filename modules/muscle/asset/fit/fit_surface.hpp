@@ -28,6 +28,7 @@ class FitSurface {
   ~FitSurface();
 
   const TriangleMesh& mesh() const { return mesh_; }
+  bool sound() const { return sound_; }
 
   // Where each line enters first and leaves last.
   void cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const;

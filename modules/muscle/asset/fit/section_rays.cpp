@@ -50,4 +50,18 @@ void cast_sections(const FitSurface& surface, std::span<const SectionFrame> fram
   }
 }
 
+void cast_slice(const SectionSlice& slice, std::size_t section, std::span<const glm::dvec2> directions,
+                SectionRays& rays) {
+  const std::size_t half = rays.count / 2;
+  std::vector<InsideInterval> intervals;
+  for (std::size_t i = 0; i < half; ++i) {
+    find_inside(slice, directions[i], intervals);
+    const std::size_t ray = section * rays.count + i;
+    const bool hit = !intervals.empty();
+    rays.hits[ray] = rays.hits[ray + half] = hit ? 1 : 0;
+    rays.radii[ray] = hit ? intervals.back().to : 0.0;
+    rays.radii[ray + half] = hit ? -intervals.front().from : 0.0;
+  }
+}
+
 }  // namespace fascicle::muscle

@@ -10,6 +10,7 @@
 
 #include "modules/muscle/asset/fit/fit_surface.hpp"
 #include "modules/muscle/asset/fit/rest_frames.hpp"
+#include "modules/muscle/asset/fit/section_slice.hpp"
 
 namespace fascicle::muscle {
 
@@ -33,6 +34,10 @@ struct SectionRays {
 
 void cast_sections(const FitSurface& surface, std::span<const SectionFrame> frames,
                    std::span<const glm::dvec2> directions, SectionRays& rays);
+
+// The same for one section that belongs to one slice alone.
+void cast_slice(const SectionSlice& slice, std::size_t section, std::span<const glm::dvec2> directions,
+                SectionRays& rays);
 
 // The line from a section's centre in a direction of its plane.
 Line section_line(const SectionFrame& frame, const glm::dvec2& direction);

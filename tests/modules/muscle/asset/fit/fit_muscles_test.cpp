@@ -158,6 +158,54 @@ TEST(FitMuscles, ConcaveSlicesGetCentresInside) {
   }
 }
 
+// A Y: two branches from x = 0 that meet at x = 0.2 and go on as one, made of two tubes that overlap.
+TriangleMesh two_branches() {
+  const auto branch = [](double side) {
+    return make_tube(
+        [=](double s) { return ellipse({side * 0.04 * std::max(0.0, 1.0 - s / 0.6), 0.0}, 0.012, 0.012); }, 0.3, 40);
+  };
+  return test::join(branch(1.0), branch(-1.0));
+}
+
+TEST(FitMuscles, WhereAPlaneCutsSeveralLoopsOneIsFollowed) {
+  const TriangleMesh mesh = two_branches();
+  for (const float side : {1.0f, -1.0f}) {
+    const MuscleDescription muscle =
+        line_muscle({{0.002f, side * 0.0395f, 0}, {0.18f, 0, 0}, {0.298f, 0, 0}}, 16, 3);
+    const FittedMuscle fitted = fit(muscle, mesh);
+    const auto asset = build(muscle, fitted);
+    ASSERT_NE(asset, nullptr);
+    EXPECT_EQ(fitted.sections[2].loops, 2u);
+    EXPECT_THAT(inside_by_winding(*asset, mesh), testing::Each(true));
+    EXPECT_LT(furthest_vertex(*asset, mesh), 2e-6);
+    for (std::uint32_t k = 0; k < 5; ++k) {
+      for (std::uint32_t i = 0; i < 16; ++i) {
+        EXPECT_LT(asset->rest_radii[asset->radius(0, k) + i], 0.02f) << "it runs over into the other branch";
+      }
+    }
+    // The plain method does run over.
+    const FittedMuscle plain = fit(muscle, mesh, {.rescue = false});
+    EXPECT_GT(*std::max_element(plain.fit.radii.begin(), plain.fit.radii.begin() + 3 * 16), 0.03f);
+  }
+}
+
+TEST(FitMuscles, CentresThatRaysLeaveOutsideAreRescued) {
+  // Six rays from far away pass a thin tendon by: it lies half-way between two of them.
+  const TriangleMesh mesh = make_tube([](double) { return ellipse({0.0, 0.0}, 0.004, 0.004); }, 0.3, 6);
+  const MuscleDescription muscle = line_muscle({{0.003f, 0, 0}, {0.15f, 0.05f, 0}, {0.297f, 0, 0}}, 6, 2);
+  const FittedMuscle plain = fit(muscle, mesh, {.supersampling = 1, .rescue = false});
+  const FittedMuscle rescued = fit(muscle, mesh, {.supersampling = 1});
+  std::size_t outside = 0, helped = 0;
+  for (const SectionReport& section : plain.sections) outside += section.inside ? 0 : 1;
+  for (const SectionReport& section : rescued.sections) {
+    EXPECT_TRUE(section.inside);
+    helped += section.rescued ? 1 : 0;
+  }
+  EXPECT_GT(outside, 0u);
+  EXPECT_GT(helped, 0u);
+  EXPECT_THAT(inside_by_winding(*build(muscle, rescued), mesh), testing::Each(true));
+}
+
 TEST(FitMuscles, ReportsSayWhatTheWindingNumberSays) {
   const TriangleMesh mesh = make_tube(
       [](double s) { return c_shape({0.01, 0.01}, 0.03, 0.004 + 0.004 * s, 0.9); }, 0.3, 10);
