@@ -11,6 +11,8 @@
 namespace fascicle::game {
 namespace {
 
+constexpr std::uint32_t kCoarsestLevel = 9;
+
 // FILE or FILE@FRAME, frames counted from 1. An '@' that no such number follows belongs to the file's name.
 ScreenshotRequest parse_screenshot(const std::string& text) {
   const std::size_t at = text.rfind('@');
@@ -28,7 +30,7 @@ ScreenshotRequest parse_screenshot(const std::string& text) {
 ParsedOptions parse_options(int argc, const char* const* argv) {
   ParsedOptions parsed;
   GameOptions& options = parsed.options;
-  std::string screenshot;
+  std::string screenshot, detail = "auto";
   bool no_draw = false;
 
   CLI::App app("Fascicle: muscles on a walking character. Without arguments: the walker, in a window.", "fascicle");
@@ -42,6 +44,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--no-draw", no_draw, "Simulate only: no GL, and no skinning of meshes that nobody would see");
   app.add_option("--simd", options.simd, "Force the instruction set of the muscle kernels")
       ->check(CLI::IsMember({"portable", "avx2", "avx512"}));
+  app.add_option("--level", detail, "Muscles' level of detail: auto (by size in the picture), 0 (finest), 1, ...")
+      ->check(CLI::IsMember({"auto"}) | CLI::Range(std::uint32_t{0}, kCoarsestLevel));
   app.add_option("--stats", options.stats_file, "Write the time per system (.csv, .json, else a table)");
   app.add_flag("--detail", options.detail, "Statistics per character and per muscle as well");
   app.add_option("--trace", options.trace_file, "Write a Chrome trace, which ui.perfetto.dev opens");
@@ -62,6 +66,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     return parsed;
   }
   options.draw = !no_draw;
+  if (detail != "auto") options.level = static_cast<std::uint32_t>(std::stoul(detail));
   if (const auto level = parse_simd_level(options.simd); level && *level > detect_simd()) {
     std::fprintf(stderr, "--simd %s: this processor has no more than %s; leave the option out\n",
                  options.simd.c_str(), std::string(to_string(detect_simd())).c_str());

@@ -21,6 +21,7 @@ struct GameOptions {
   int threads = 0;                       // workers; 0: one for each core
   int copies = 1;                        // how often the scene's characters are spawned, side by side
   std::string simd;                      // portable, avx2, avx512; empty: the best that the machine has
+  std::optional<std::uint32_t> level;    // of detail, 0 the finest; absent: by size in the picture
   std::string stats_file;                // .csv, .json, else a table
   std::string trace_file;
   std::string report_file;

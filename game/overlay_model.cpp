@@ -1,10 +1,13 @@
 #include "game/overlay_model.hpp"
 
+#include <algorithm>
+
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
 namespace {
 
+constexpr std::array<const char*, 4> kLevelNames = {"at level 0", "at level 1", "at level 2", "at coarser levels"};
 constexpr float kSmoothing = 0.1f;  // weight of the newest step in a system's shown time
 
 }  // namespace
@@ -43,6 +46,12 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
   counts_.push_back({"characters", static_cast<float>(simulation.characters().size())});
   counts_.push_back({"draw calls", static_cast<float>(renderer.stats().draw_calls)});
   counts_.push_back({"muscle vertices", static_cast<float>(renderer.stats().strip_vertices)});
+  const Simulation::DetailCounts details = simulation.count_details();
+  for (std::size_t level = 0; details.characters.size() > 1 && level < details.characters.size(); ++level) {
+    counts_.push_back({kLevelNames[std::min(level, kLevelNames.size() - 1)],
+                       static_cast<float>(details.characters[level])});
+  }
+  if (details.switches > 0) counts_.push_back({"level switches", static_cast<float>(details.switches)});
   counts_.push_back({"workers", static_cast<float>(simulation.workers().workers())});
 
   switches_.clear();

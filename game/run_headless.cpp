@@ -62,11 +62,9 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
                                 .skin_meshes = options.draw});
   std::optional<SceneView> view;
   DrawView draw_view;
-  if (screen) {
-    view.emplace(simulation, *screen->renderer);
-    draw_view.camera = view->scene_camera();
-    draw_view.lines = false;
-  }
+  draw_view.camera = scene_camera(*scene);  // muscles have their level of detail by it, drawn or not
+  draw_view.lines = false;
+  if (screen) view.emplace(simulation, *screen->renderer);
 
   const std::uint64_t frames = options.frames.value_or(static_cast<std::uint64_t>(scene->frames));
   std::optional<ContactSheet> sheet;
@@ -77,10 +75,11 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
   for (std::uint64_t frame = 1; frame <= frames; ++frame) {
     recorder.begin_frame();
     if (view) view->begin_step();
+    simulation.set_viewer(make_viewer(draw_view.camera, options.height, options.level));
     simulation.step();
     recorder.record_step(simulation);
+    draw_view.camera.target = scene->camera.target + simulation.travel();
     if (screen) {
-      draw_view.camera.target = scene->camera.target + simulation.travel();
       const std::int64_t start = monotonic_ns();
       screen->renderer->draw(draw_view);
       recorder.record_draw(start, monotonic_ns(), *screen->renderer);

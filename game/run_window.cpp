@@ -31,7 +31,7 @@ class WindowRun {
         scene_view_(simulation_, *screen.renderer),
         feed_(scene->name, fmt::format("{}, {} workers", screen.info.renderer, simulation_.workers().workers())),
         recorder_(options, simulation_, options.frames.value_or(0)) {
-    view_.camera = scene_view_.scene_camera();
+    view_.camera = scene_camera(simulation_.scene());
     view_.lines = false;
   }
 
@@ -59,6 +59,7 @@ class WindowRun {
 
     poll_reload();
     recorder_.begin_frame();
+    simulation_.set_viewer(make_viewer(view_.camera, screen_.renderer->height(), options_.level));
     const int steps = simulation_.loop().begin_frame(seconds);
     for (int i = 0; i < steps && !is_over(); ++i) {
       scene_view_.begin_step();
@@ -109,7 +110,7 @@ class WindowRun {
     if (input.was_pressed(Key::space)) toggle_pause();
     if (input.was_pressed(Key::period)) simulation_.loop().request_single_step();
     if (input.was_pressed(Key::h)) show_overlay_ = !show_overlay_;
-    if (input.was_pressed(Key::r)) view_.camera = scene_view_.scene_camera();
+    if (input.was_pressed(Key::r)) view_.camera = scene_camera(simulation_.scene());
     if (input.was_pressed(Key::escape)) screen_.window->request_close();
     for (const ViewSwitch& s : kViewSwitches) {
       if (input.was_pressed(s.key)) view_.*s.field = !(view_.*s.field);

@@ -1,8 +1,10 @@
 #include "game/scene_view.hpp"
 
+#include <cmath>
+
 #include "engine/animation/skinning_systems.hpp"
 #include "engine/parallel/for_range.hpp"
-#include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
 namespace {
@@ -86,16 +88,24 @@ void SceneView::attach_character(const SpawnedCharacter& character) {
   }
 
   if (character.musculature == ecs::kNoEntity) return;
-  const muscle::MuscleAsset& asset = *character.asset->muscles;
+  muscle::DrawnMuscles drawn;
+  if (const auto* detail = world.try_get<muscle::MuscleDetail>(character.musculature)) {
+    for (const auto& asset : detail->levels->assets) drawn.levels.push_back(add_level(*asset));
+  } else {
+    drawn.levels.push_back(add_level(*world.get<muscle::Musculature>(character.musculature).asset));
+  }
+  world.add(character.musculature, std::move(drawn));
+}
+
+muscle::DrawnMuscles::Level SceneView::add_level(const muscle::MuscleAsset& asset) {
   const auto [shared, is_new] = muscles_.try_emplace(&asset);
   if (is_new) {
     shared->second.topology = renderer_.add_strip_topology(muscle::make_strip_topology(asset));
     shared->second.line_indices = muscle::make_action_line_indices(asset);
     topologies_.push_back(shared->second.topology);
   }
-  const StripHandle strips = renderer_.add_strips(shared->second.topology);
-  const LineHandle lines = renderer_.add_lines(muscle::action_line_vertex_count(asset), shared->second.line_indices);
-  world.add(character.musculature, muscle::DrawnMuscles{strips, lines, 0});
+  return {renderer_.add_strips(shared->second.topology),
+          renderer_.add_lines(muscle::action_line_vertex_count(asset), shared->second.line_indices)};
 }
 
 void SceneView::release() {
@@ -110,8 +120,10 @@ void SceneView::release() {
       world.remove<DrawnSkin>(skin);
     }
     if (const muscle::DrawnMuscles* drawn = world.try_get<muscle::DrawnMuscles>(character.musculature)) {
-      renderer_.remove(drawn->strips);
-      renderer_.remove(drawn->lines);
+      for (const muscle::DrawnMuscles::Level& level : drawn->levels) {
+        renderer_.remove(level.strips);
+        renderer_.remove(level.lines);
+      }
       world.remove<muscle::DrawnMuscles>(character.musculature);
     }
   }
@@ -123,17 +135,26 @@ void SceneView::release() {
   meshes_.clear();
 }
 
-OrbitCamera SceneView::scene_camera() const {
-  const muscle::SceneCamera& camera = simulation_.scene().camera;
+OrbitCamera scene_camera(const muscle::SceneAsset& scene) {
+  const muscle::SceneCamera& camera = scene.camera;
   return {camera.target, camera.distance, camera.yaw, camera.pitch, camera.field_of_view};
+}
+
+muscle::Viewer make_viewer(const OrbitCamera& camera, int height, std::optional<std::uint32_t> level) {
+  return {.enabled = true,
+          .eye = camera.eye(),
+          .pixels_per_radian = 0.5f * static_cast<float>(height) / std::tan(0.5f * camera.fov),
+          .level = level};
 }
 
 void SceneView::set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags) {
   for (const SpawnedCharacter& character : simulation_.characters()) {
     if (character.scene_index != scene_index || character.musculature == ecs::kNoEntity) continue;
     const muscle::DrawnMuscles& drawn = simulation_.world().get<muscle::DrawnMuscles>(character.musculature);
-    const std::span<StripItem> items = renderer_.strip_items(drawn.strips);
-    if (muscle < items.size()) items[muscle].flags = flags;
+    for (const muscle::DrawnMuscles::Level& level : drawn.levels) {
+      const std::span<StripItem> items = renderer_.strip_items(level.strips);
+      if (muscle < items.size()) items[muscle].flags = flags;
+    }
   }
 }
 

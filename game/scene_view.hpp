@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/animation/skeleton.hpp"
@@ -36,6 +37,12 @@ void upload_bones(ecs::View<const BoneMatrices, DrawnBones> characters,
 void upload_skins(ecs::View<const SkinnedSurface, DrawnSkin> skins, ecs::View<const BoneMatrices> characters,
                   ecs::Resource<const muscle::DrawTarget> target);
 
+// Where the scene's camera looks from.
+OrbitCamera scene_camera(const muscle::SceneAsset& scene);
+
+// What a camera sees of the muscles in a picture of `height` pixels; `level` is the one asked for, if any.
+muscle::Viewer make_viewer(const OrbitCamera& camera, int height, std::optional<std::uint32_t> level);
+
 class SceneView {
  public:
   // Adds the upload systems to the simulation's schedule and gives all its characters their pictures.
@@ -50,10 +57,7 @@ class SceneView {
   void release();
   void attach();
 
-  // Where the scene's camera looks from.
-  OrbitCamera scene_camera() const;
-
-  // Of one muscle, on all characters of its asset: hidden or highlighted.
+  // Of one muscle, on all characters of its asset, at every level of detail: hidden or highlighted.
   void set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags);
 
  private:
@@ -63,6 +67,7 @@ class SceneView {
   };
 
   void attach_character(const SpawnedCharacter& character);
+  muscle::DrawnMuscles::Level add_level(const muscle::MuscleAsset& asset);
 
   Simulation& simulation_;
   Renderer& renderer_;

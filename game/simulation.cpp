@@ -109,7 +109,7 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
                                               .in_place = placed.in_place});
     }
   }
-  if (asset.muscles) spawned.musculature = muscle::spawn_musculature(world_, spawned.entity, asset.muscles);
+  if (asset.levels) spawned.musculature = muscle::spawn_musculature(world_, spawned.entity, asset.levels);
   for (const std::shared_ptr<const SkinAsset>& skin : asset.skins) {
     const ecs::Entity entity = world_.create();
     world_.add(entity, SkinInstance{skin, spawned.entity});
@@ -185,6 +185,25 @@ std::uint64_t Simulation::held_steps() const {
   return held;
 }
 
+Simulation::DetailCounts Simulation::count_details() const {
+  DetailCounts counts;
+  std::size_t musculatures = 0;
+  for (const SpawnedCharacter& character : characters_) {
+    if (character.musculature == ecs::kNoEntity) continue;
+    const muscle::Musculature& musculature = world_.get<muscle::Musculature>(character.musculature);
+    const muscle::MuscleDetail* detail = world_.try_get<muscle::MuscleDetail>(character.musculature);
+    const std::size_t level = detail == nullptr ? 0 : detail->level;
+    if (counts.characters.size() <= level) counts.characters.resize(level + 1);
+    ++counts.characters[level];
+    counts.mean_level += static_cast<double>(level) + static_cast<double>(musculature.morph);
+    counts.switches += detail == nullptr ? 0 : detail->switches;
+    counts.vertices += musculature.asset->vertex_count;
+    ++musculatures;
+  }
+  if (musculatures > 0) counts.mean_level /= static_cast<double>(musculatures);
+  return counts;
+}
+
 void Simulation::record_metrics(Report& report) const {
   double length = 0.0, volume = 0.0, worst_stretch = 0.0;
   std::size_t muscles = 0;
@@ -203,6 +222,10 @@ void Simulation::record_metrics(Report& report) const {
   report.record("muscle.length_mean_m", length / static_cast<double>(muscles));
   report.record("muscle.length_ratio_max", worst_stretch);
   report.record("muscle.volume_total_m3", volume);
+  const DetailCounts details = count_details();
+  report.record("muscle.level_mean", details.mean_level);
+  report.record("muscle.level_switches", static_cast<double>(details.switches));
+  report.record("muscle.vertices", static_cast<double>(details.vertices));
   report.record("held_steps", static_cast<double>(held_steps()));
 }
 

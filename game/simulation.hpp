@@ -12,6 +12,7 @@
 #include "engine/math/simd_level.hpp"
 #include "engine/parallel/worker_arena.hpp"
 #include "game/report.hpp"
+#include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 
 namespace fascicle::game {
@@ -47,6 +48,9 @@ class Simulation {
   // When steps are due (a window asks it each frame; headless steps without asking).
   FrameLoop& loop() { return loop_; }
 
+  // Who looks at the muscles from the next step on; nobody at first, and all are at their finest.
+  void set_viewer(const muscle::Viewer& viewer) { world_.resource<muscle::Viewer>() = viewer; }
+
   // One step of the scene's length.
   void step();
   std::uint64_t steps() const { return steps_; }
@@ -70,6 +74,15 @@ class Simulation {
 
   // How often a character kept its last bones, or a muscle its last shape, because the new ones were not finite.
   std::uint64_t held_steps() const;
+
+  // Muscles' levels of detail: the mean over the characters that have muscles, parts of a level for their morphs; how
+  // often a character's level was exchanged since it was spawned; vertices of all surfaces.
+  struct DetailCounts {
+    std::vector<std::size_t> characters;  // by level
+    double mean_level = 0.0;
+    std::uint64_t switches = 0, vertices = 0;
+  };
+  DetailCounts count_details() const;
 
   // This step's metrics of every part of the simulation, by name.
   void record_metrics(Report& report) const;

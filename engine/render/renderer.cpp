@@ -149,6 +149,9 @@ void Renderer::mark_teleported(LineHandle lines) {
   state_->lines.sets().state(lines).teleported = state_->clock.step();
 }
 
+void Renderer::forget(StripHandle strips) { state_->strips.state(strips).first_written = 0; }
+void Renderer::forget(LineHandle lines) { state_->lines.sets().state(lines).first_written = 0; }
+
 std::span<StripItem> Renderer::strip_items(StripHandle strips) { return state_->strips.items(strips); }
 void Renderer::set_visible(StripHandle strips, bool visible) { state_->strips.state(strips).visible = visible; }
 void Renderer::set_visible(RigidHandle group, bool visible) { state_->rigids.state(group).visible = visible; }

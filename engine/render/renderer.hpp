@@ -102,6 +102,9 @@ class Renderer {
   void mark_teleported(RigidHandle group);
   void mark_teleported(SkinHandle skin);
   void mark_teleported(LineHandle lines);
+  // Not drawn until it is written again, which is then no step that is interpolated from. For things that take turns.
+  void forget(StripHandle strips);
+  void forget(LineHandle lines);
 
   // --- At any time, GL thread.
   std::span<StripItem> strip_items(StripHandle strips);  // readable and writable; uploaded before the next draw

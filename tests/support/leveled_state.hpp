@@ -10,6 +10,7 @@
 #include "engine/content/triangle_mesh.hpp"
 #include "engine/geometry/closest_point.hpp"
 #include "modules/muscle/systems/1_drive/select_levels.hpp"
+#include "modules/muscle/systems/5_present/write_surfaces.hpp"
 #include "tests/support/muscle_state.hpp"
 
 namespace fascicle::test {

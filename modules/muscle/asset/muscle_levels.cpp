@@ -152,12 +152,16 @@ std::vector<PointBinding> morph_points(const Level& fine, const Level& coarse) {
   return points;
 }
 
-// Two levels may count a muscle's vertices from different directions: the finer level's vertex 0 is to lie where the
-// coarser one's would be this many turns further on. Whole vertices, so that vertices meet vertices, and the nearest,
-// so that the muscle is not seen to turn as it morphs.
-double find_shift(const Level& fine, const Level& coarse, std::uint32_t m) {
-  const double count = fine.asset.muscles[m].section_vertices;
-  return std::round(count * angle_between(fine.u(m, 0), coarse.u(m, 0), coarse.v(m, 0)) / (2.0 * kPi)) / count;
+// Two levels may count a muscle's vertices from different directions: by how many vertices of its own the finer level's
+// start is to be turned. Whole ones, so that vertices meet vertices, and the nearest, so that the muscle is not seen to
+// turn as it morphs.
+std::uint32_t find_shift(const Level& fine, const Level& coarse, std::uint32_t m) {
+  const int count = static_cast<int>(fine.asset.muscles[m].section_vertices);
+  const double turns = angle_between(fine.u(m, 0), coarse.u(m, 0), coarse.v(m, 0)) / (2.0 * kPi);
+  return static_cast<std::uint32_t>((static_cast<int>(std::lround(turns * count)) + count) % count);
+}
+double shifted_turns(const Level& fine, const Level& coarse, std::uint32_t m) {
+  return double(find_shift(fine, coarse, m)) / fine.asset.muscles[m].section_vertices;
 }
 
 // `from` turned about its tangent. Bones may be scaled, but evenly.
@@ -176,7 +180,7 @@ std::vector<EndFrame> morph_ends(const Level& fine, const Level& coarse) {
   for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
     for (std::size_t end = 0; end < 2; ++end) {
       const EndFrame& from = coarse.asset.ends[std::size_t{2} * coarse.asset.muscles[m].lane_index + end];
-      ends[std::size_t{2} * fine.asset.muscles[m].lane_index + end] = turn_end(from, find_shift(fine, coarse, m));
+      ends[std::size_t{2} * fine.asset.muscles[m].lane_index + end] = turn_end(from, shifted_turns(fine, coarse, m));
     }
   }
   return ends;
@@ -212,7 +216,7 @@ struct MorphedLines {
           frame.tangent[i] = static_cast<float>(t[i]);
           frame.reference[i] = static_cast<float>(u[i]);
         }
-        ends[std::size_t{2} * layout.lane_index + end] = turn_end(frame, find_shift(fine, coarse, m));
+        ends[std::size_t{2} * layout.lane_index + end] = turn_end(frame, shifted_turns(fine, coarse, m));
       }
     }
     AlignedVector<float> arc(asset.slot_count), twist(asset.lane_count, 0.0f);
@@ -387,6 +391,7 @@ Result<std::shared_ptr<const MuscleLevels>> make_muscle_levels(
     LevelMorph& morph = levels->morphs.emplace_back();
     morph.points = morph_points(fine, coarse);
     morph.ends = morph_ends(fine, coarse);
+    for (std::uint32_t m = 0; m < fine.asset.size(); ++m) morph.shifts.push_back(find_shift(fine, coarse, m));
     morph_radii(fine, coarse, morph);
     total += double{std::max(morph.error, kSmallestError)};
     const float before = i == 0 ? 0.0f : kMorphBand * levels->morphs[i - 1].complete;
@@ -401,7 +406,7 @@ std::size_t heap_bytes(const MuscleLevels& levels) {
                     levels.morphs.capacity() * sizeof(levels.morphs[0]);
   for (const LevelMorph& morph : levels.morphs) {
     sum += morph.points.capacity() * sizeof(PointBinding) + morph.ends.capacity() * sizeof(EndFrame) +
-           morph.radii.capacity() * sizeof(float);
+           morph.radii.capacity() * sizeof(float) + morph.shifts.capacity() * sizeof(std::uint32_t);
   }
   return sum;
 }

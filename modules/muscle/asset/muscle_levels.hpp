@@ -34,6 +34,8 @@ struct LevelMorph {
   std::vector<PointBinding> points;  // MuscleAsset::points; bones and slots are the same
   std::vector<EndFrame> ends;        // MuscleAsset::ends; bones are the same
   AlignedVector<float> radii;        // m; MuscleAsset::rest_radii
+  // By muscle: vertex i comes to lie where, in numbers of this level, vertex i + shift of the coarser one's outline is.
+  std::vector<std::uint32_t> shifts;
   // m: the root of the mean square by which the rest shape's vertices move in or out.
   float error = 0.0f;
   // m: this and all finer levels' errors. The morph is complete where that is as much as a viewer tolerates, and begins

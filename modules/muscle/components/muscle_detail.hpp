@@ -17,6 +17,9 @@ struct MuscleLevels;
 struct MuscleDetail {
   std::shared_ptr<const MuscleLevels> levels;
   std::uint32_t level = 0;        // of levels->assets: Musculature::asset, on its way to the next by Musculature::morph
+  // The level of the next step, where that is known: `level` is then just what it draws (a renderer that interpolates
+  // between steps takes it over by resample_surface). Else the same as `level`.
+  std::uint32_t next = 0;
   std::uint64_t switches = 0;     // of levels, since the spawn
   std::vector<float> twist = {};  // by muscle: scratch of a switch
 };

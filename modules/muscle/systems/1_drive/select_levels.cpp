@@ -53,8 +53,19 @@ void switch_level(std::uint32_t level, MuscleDetail& detail, Musculature& muscul
   musculature.asset = detail.levels->assets[level];
   musculature.coarser = level < detail.levels->morphs.size() ? &detail.levels->morphs[level] : nullptr;
   musculature.morph = 0.0f;
-  detail.level = level;
+  detail.level = detail.next = level;
   ++detail.switches;
+}
+
+// What a step is to bring a musculature to that `wanted` is meant for.
+LevelChoice next_choice(LevelChoice wanted, MuscleDetail& detail) {
+  const bool coarser = wanted.level == detail.level + 1, finer = wanted.level + 1 == detail.level;
+  if ((coarser || finer) && detail.next != wanted.level) {
+    detail.next = wanted.level;
+    return {detail.level, coarser ? 1.0f : 0.0f};
+  }
+  detail.next = wanted.level;
+  return wanted;
 }
 
 }  // namespace
@@ -93,9 +104,9 @@ void select_levels(ecs::View<MuscleDetail, Musculature, ActionLines, CrossSectio
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
     if (!has_bones(*musculature.asset, bones)) return;
     const LevelChoice choice = choose_level(*detail.levels, *bones, *viewer);
-    if (choice.level == detail.level && choice.morph == musculature.morph) return;
+    if (choice.level == detail.level && detail.next == detail.level && choice.morph == musculature.morph) return;
     if (!kernels.check_bones(&bones->world[0][0][0], musculature.asset->bone_count)) return;
-    set_level(choice, detail, musculature, lines, sections, surfaces);
+    set_level(next_choice(choice, detail), detail, musculature, lines, sections, surfaces);
   };
   ecs::each_in_parallel(musculatures, kMusculaturesPerChunk, select);
 }

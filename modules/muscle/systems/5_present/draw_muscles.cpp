@@ -3,9 +3,10 @@
 #include <cstring>
 #include <span>
 
-#include "engine/parallel/for_range.hpp"
+#include "engine/ecs/each_in_parallel.hpp"
 #include "engine/render/renderer.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/systems/5_present/resample_surface.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -37,6 +38,25 @@ void write_action_lines(const Musculature& musculature, const ActionLines& lines
   }
 }
 
+// Lets the renderer draw the level that is computed, and no other.
+void show_level(const MuscleDetail& detail, Renderer& renderer, DrawnMuscles& drawn) {
+  if (detail.level == drawn.level && detail.next == drawn.next) return;
+  drawn.level = detail.level;
+  drawn.next = detail.next;
+  for (std::uint32_t i = 0; i < drawn.levels.size(); ++i) {
+    const DrawnMuscles::Level& level = drawn.levels[i];
+    renderer.set_visible(level.strips, i == drawn.level);
+    if (i != drawn.level && i != drawn.next) renderer.forget(level.strips);
+    if (i != drawn.level && level.lines) renderer.forget(level.lines);
+  }
+}
+
+// The renderer's vertices and rows are laid out like the module's own (see above).
+template <class To, class From>
+std::span<To> same_layout(std::span<From> from) {
+  return {reinterpret_cast<To*>(from.data()), from.size()};
+}
+
 }  // namespace
 
 StripTopology make_strip_topology(const MuscleAsset& asset) {
@@ -65,28 +85,38 @@ std::vector<std::uint32_t> make_action_line_indices(const MuscleAsset& asset) {
   return indices;
 }
 
-void upload_muscles(ecs::View<const Musculature, const MuscleSurfaces, const ActionLines, DrawnMuscles> musculatures,
-                    ecs::View<const BoneMatrices> characters, ecs::Resource<const DrawTarget> target) {
-  Renderer& renderer = *target->renderer;
-  parallel::for_range(musculatures.candidates(), kMusculaturesPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      musculatures.visit(i, [&](const Musculature& musculature, const MuscleSurfaces& surfaces,
-                                const ActionLines& lines, DrawnMuscles& drawn) {
-        const std::span<DrawVertex> vertices = renderer.strip_vertices(drawn.strips);
-        std::memcpy(static_cast<void*>(vertices.data()), surfaces.vertices.data(), vertices.size_bytes());
-        const std::span<StripRow> rows = renderer.strip_rows(drawn.strips);
-        std::memcpy(static_cast<void*>(rows.data()), surfaces.rows.data(), rows.size_bytes());
-        if (drawn.lines) write_action_lines(musculature, lines, renderer.line_vertices(drawn.lines));
+std::size_t heap_bytes(const DrawnMuscles& drawn) { return drawn.levels.capacity() * sizeof(DrawnMuscles::Level); }
 
-        const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
-        if (bones != nullptr && bones->teleport_count != drawn.teleport_count) {
-          drawn.teleport_count = bones->teleport_count;
-          renderer.mark_teleported(drawn.strips);
-          if (drawn.lines) renderer.mark_teleported(drawn.lines);
-        }
-      });
+void upload_muscles(
+    ecs::View<const Musculature, const MuscleSurfaces, const ActionLines, const Tendons, DrawnMuscles> musculatures,
+    ecs::View<const MuscleDetail> details, ecs::View<const BoneMatrices> characters,
+    ecs::Resource<const DrawTarget> target) {
+  Renderer& renderer = *target->renderer;
+  const auto upload = [&](ecs::Entity entity, const Musculature& musculature, const MuscleSurfaces& surfaces,
+                          const ActionLines& lines, const Tendons& tendons, DrawnMuscles& drawn) {
+    const MuscleDetail* detail = details.try_get<const MuscleDetail>(entity);
+    if (detail != nullptr) show_level(*detail, renderer, drawn);
+    const DrawnMuscles::Level& level = drawn.levels[drawn.level];
+    const std::span<DrawVertex> vertices = renderer.strip_vertices(level.strips);
+    std::memcpy(static_cast<void*>(vertices.data()), surfaces.vertices.data(), vertices.size_bytes());
+    const std::span<StripRow> rows = renderer.strip_rows(level.strips);
+    std::memcpy(static_cast<void*>(rows.data()), surfaces.rows.data(), rows.size_bytes());
+    if (level.lines) write_action_lines(musculature, lines, renderer.line_vertices(level.lines));
+    if (drawn.next != drawn.level) {
+      const DrawnMuscles::Level& next = drawn.levels[drawn.next];
+      resample_surface(*detail->levels, drawn.level, tendons, surfaces, drawn.next,
+                       same_layout<SurfaceVertex>(renderer.strip_vertices(next.strips)),
+                       same_layout<SurfaceRow>(renderer.strip_rows(next.strips)));
     }
-  });
+
+    const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
+    if (bones != nullptr && bones->teleport_count != drawn.teleport_count) {
+      drawn.teleport_count = bones->teleport_count;
+      renderer.mark_teleported(level.strips);
+      if (level.lines) renderer.mark_teleported(level.lines);
+    }
+  };
+  ecs::each_in_parallel(musculatures, kMusculaturesPerChunk, upload);
 }
 
 }  // namespace fascicle::muscle

@@ -37,6 +37,11 @@ struct LeveledWorld : MuscleWorld {
     world.set_resource(Viewer{.enabled = true, .eye = anchor + glm::vec3(0.0f, 0.0f, distance),
                               .pixels_per_radian = 1000.0f});
   }
+  // A step that announces a level's change, and the one that makes it.
+  void settle() {
+    step();
+    step();
+  }
   const MuscleDetail& detail(ecs::Entity muscles) { return world.get<MuscleDetail>(muscles); }
   float morph(ecs::Entity muscles) { return world.get<Musculature>(muscles).morph; }
 };
@@ -111,7 +116,7 @@ TEST(SelectLevels, ALevelIsTheSameAsItsAssetAlone) {
   const std::pair<float, std::uint32_t> places[] = {{1.0f, 0}, {middle, 1}, {far, 2}, {1.0f, 0}, {far, 2}, {middle, 1}};
   for (const auto& [distance, level] : places) {
     w.look_from(distance);
-    w.step();
+    w.settle();
     ASSERT_EQ(w.detail(muscles).level, level) << distance;
     ASSERT_EQ(w.morph(muscles), 0.0f);
     MuscleWorld alone;
@@ -123,12 +128,45 @@ TEST(SelectLevels, ALevelIsTheSameAsItsAssetAlone) {
   // And for a fixed level, or one beyond the coarsest.
   for (const std::uint32_t fixed : {2u, 7u}) {
     w.world.resource<Viewer>().level = fixed;
-    w.step();
+    w.settle();
     EXPECT_EQ(w.detail(muscles).level, 2u);
   }
   w.world.resource<Viewer>() = Viewer{};
-  w.step();
+  w.settle();
   EXPECT_EQ(w.detail(muscles).level, 0u);
+}
+
+// A step before the exchange the level that goes is drawn as what comes; who turns back in that step is not exchanged.
+TEST(SelectLevels, AnExchangeIsAnnouncedByAStep) {
+  const auto levels = test::synthetic_levels();
+  LeveledWorld w(levels);
+  const ecs::Entity muscles = w.spawn(w.add_character(test::rest_bones()));
+  const auto expect = [&](std::uint32_t level, std::uint32_t next, float morph) {
+    EXPECT_EQ(w.detail(muscles).level, level);
+    EXPECT_EQ(w.detail(muscles).next, next);
+    EXPECT_NEAR(w.morph(muscles), morph, 2.0e-3f);
+  };
+  const auto step_at = [&](std::uint32_t level, float way) {
+    w.look_from(distance_of(*levels, level, way));
+    w.step();
+  };
+  step_at(0, 0.9f);
+  expect(0, 0, 0.9f);
+  step_at(1, 0.1f);
+  expect(0, 1, 1.0f);
+  step_at(0, 0.8f);  // back again
+  expect(0, 0, 0.8f);
+  step_at(1, 0.1f);
+  expect(0, 1, 1.0f);
+  step_at(1, 0.2f);
+  expect(1, 1, 0.2f);
+  step_at(0, 0.95f);
+  expect(1, 0, 0.0f);
+  step_at(0, 0.9f);
+  expect(0, 0, 0.9f);
+  EXPECT_EQ(w.detail(muscles).switches, 2u);
+  step_at(1, 1.1f);  // over level 1: at once
+  expect(2, 2, 0.0f);
 }
 
 TEST(SelectLevels, MorphsWhatEachBandSays) {
@@ -138,7 +176,7 @@ TEST(SelectLevels, MorphsWhatEachBandSays) {
   for (std::uint32_t level = 0; level < 2; ++level) {
     for (const float way : {0.25f, 0.75f}) {
       w.look_from(distance_of(*levels, level, way));
-      w.step();
+      w.settle();
       EXPECT_EQ(w.detail(muscles).level, level);
       EXPECT_NEAR(w.morph(muscles), way, 1.0e-3f);
       const CrossSections& sections = w.world.get<CrossSections>(muscles);
@@ -183,7 +221,7 @@ TEST(SelectLevels, TwistGoesWithItsMuscle) {
     const glm::mat4 turned = glm::translate(
         glm::rotate(glm::translate(glm::mat4(1.0f), pivot), glm::radians(static_cast<float>(degrees)), axis), -pivot);
     w.pose(character, {glm::mat4(1.0f), turned});
-    w.step();
+    w.settle();
   }
   const auto twist = [&](std::uint32_t m) {
     const MuscleAsset& asset = *w.world.get<Musculature>(muscles).asset;
@@ -191,7 +229,7 @@ TEST(SelectLevels, TwistGoesWithItsMuscle) {
   };
   for (const std::uint32_t level : {0u, 1u, 0u, 1u}) {
     w.world.resource<Viewer>().level = level;
-    w.step();
+    w.settle();
     EXPECT_EQ(w.detail(muscles).level, level);
     EXPECT_NEAR(twist(0), 0.0f, 1.0e-4f);
     EXPECT_NEAR(twist(1), glm::radians(270.0f), 1.0e-3f);
@@ -203,12 +241,12 @@ TEST(SelectLevels, DetachedMusclesStayDetachedAndMeasuresGoOn) {
   LeveledWorld w(levels);
   const ecs::Entity muscles = w.spawn(w.add_character(test::walk_bones(0.2f)));
   w.look_from(1.0f);
-  w.step();
+  w.settle();
   detach_muscle(w.world, muscle_entity(w.world, muscles, 5u));
   const std::vector<float> lengths = w.world.get<MuscleMeasures>(muscles).length;
   for (const float distance : {1.0e5f, 1.0f}) {
     w.look_from(distance);
-    w.step();
+    w.settle();
     const Musculature& musculature = w.world.get<Musculature>(muscles);
     const MuscleSurfaces& surfaces = w.world.get<MuscleSurfaces>(muscles);
     const glm::vec3 place = line_point(*musculature.asset, w.world.get<ActionLines>(muscles), 5, 0);
@@ -254,7 +292,7 @@ TEST(SelectLevels, HeldCharactersKeepTheirLevel) {
   }
   w.look_from(1.0e5f);
   w.pose(character, test::walk_bones(0.3f));
-  w.step();
+  w.settle();
   EXPECT_EQ(w.detail(muscles).level, 2u);
   // No bones at all.
   w.look_from(0.5f);
