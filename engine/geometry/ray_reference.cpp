@@ -33,11 +33,18 @@ void for_each_crossing(const TriangleMesh& mesh, const Line& line, F f) {
 void cast_lines_reference(const TriangleMesh& mesh, std::span<const Line> lines, std::span<LineExtremes> extremes) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     LineExtremes found;
+    float first_exit = found.first_entry, last_entry = found.last_exit;
     for_each_crossing(mesh, lines[i], [&](float t, std::uint32_t, bool exit) {
-      if (exit) found.last_exit = std::max(found.last_exit, t);
-      else found.first_entry = std::min(found.first_entry, t);
+      if (exit) {
+        found.last_exit = std::max(found.last_exit, t);
+        first_exit = std::min(first_exit, t);
+      } else {
+        found.first_entry = std::min(found.first_entry, t);
+        last_entry = std::max(last_entry, t);
+      }
       ++found.crossings;
     });
+    found.backwards = first_exit < found.first_entry || last_entry > found.last_exit;
     extremes[i] = found;
   }
 }

@@ -24,7 +24,8 @@ constexpr float kSamePlace = 1.0e-6f;
 // What the filter functions find behind Embree's own context.
 struct ExtremesContext {
   RTCIntersectContext embree;
-  std::array<float, kPacket> entries, exits;
+  std::array<float, kPacket> entries, exits;            // first entry, last exit
+  std::array<float, kPacket> last_entries, first_exits;
   std::array<std::uint32_t, kPacket> counts;
   std::array<std::int32_t, kPacket> balances;  // entries less exits
 };
@@ -52,8 +53,13 @@ void for_each_hit(const RTCFilterFunctionNArguments* offered, F f) {
 void record_extremes(const RTCFilterFunctionNArguments* offered) {
   ExtremesContext& context = *reinterpret_cast<ExtremesContext*>(offered->context);
   for_each_hit(offered, [&](unsigned int id, float t, std::uint32_t, bool exit) {
-    if (exit) context.exits[id] = std::max(context.exits[id], t);
-    else context.entries[id] = std::min(context.entries[id], t);
+    if (exit) {
+      context.exits[id] = std::max(context.exits[id], t);
+      context.first_exits[id] = std::min(context.first_exits[id], t);
+    } else {
+      context.entries[id] = std::min(context.entries[id], t);
+      context.last_entries[id] = std::max(context.last_entries[id], t);
+    }
     ++context.counts[id];
     context.balances[id] += exit ? -1 : 1;
   });
@@ -113,9 +119,16 @@ struct RayScene::Impl {
   std::array<float, kPacket> cast_packet(std::span<const Line> lines, ExtremesContext& context) const {
     context.entries.fill(LineExtremes{}.first_entry);
     context.exits.fill(LineExtremes{}.last_exit);
+    context.first_exits = context.entries;
+    context.last_entries = context.exits;
     context.counts.fill(0);
     context.balances.fill(0);
     return intersect(lines, context.embree);
+  }
+  LineExtremes extremes_of(const ExtremesContext& context, std::size_t i, float start) const {
+    return {start + context.entries[i], start + context.exits[i], context.counts[i],
+            context.first_exits[i] < context.entries[i] - same_place ||
+                context.last_entries[i] > context.exits[i] + same_place};
   }
   // The same; t counts from the lines' own origins.
   void cast_packet(std::span<const Line> lines, CrossingsContext& context) const {
@@ -232,7 +245,7 @@ void RayScene::cast(std::span<const Line> lines, std::span<LineExtremes> extreme
     const std::size_t count = std::min<std::size_t>(kPacket, lines.size() - first);
     const std::array<float, kPacket> starts = impl_->cast_packet(lines.subspan(first, count), context);
     for (std::size_t i = 0; i < count; ++i) {
-      extremes[first + i] = {starts[i] + context.entries[i], starts[i] + context.exits[i], context.counts[i]};
+      extremes[first + i] = impl_->extremes_of(context, i, starts[i]);
       if (context.balances[i] != 0 || context.counts[i] == 0) doubtful.push_back(static_cast<std::uint32_t>(first + i));
     }
   }
@@ -247,8 +260,7 @@ void RayScene::cast(std::span<const Line> lines, std::span<LineExtremes> extreme
       for (std::size_t i = 0; i < count; ++i) {
         if (context.balances[i] != 0) still.push_back(doubtful[first + i]);  // an open mesh: the line itself counts
         else if (context.counts[i] != 0) {
-          extremes[doubtful[first + i]] = {starts[i] + context.entries[i], starts[i] + context.exits[i],
-                                           context.counts[i]};
+          extremes[doubtful[first + i]] = impl_->extremes_of(context, i, starts[i]);
         }
       }
     }

@@ -38,6 +38,9 @@ struct LineExtremes {
   float first_entry = std::numeric_limits<float>::infinity();  // m; infinity: none
   float last_exit = -std::numeric_limits<float>::infinity();   // m; minus infinity: none
   std::uint32_t crossings = 0;  // at least as many as there are: those at shared edges may count twice
+  // The line leaves before it enters, or enters after it leaves: some of the mesh is inside out. Extremes that count are
+  // then anybody's guess.
+  bool backwards = false;
 };
 
 struct LineCrossing {

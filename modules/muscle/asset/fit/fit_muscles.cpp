@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "engine/geometry/clean_mesh.hpp"
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/ray_scene.hpp"
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/check_descriptions.hpp"
+#include "modules/muscle/asset/fit/check_mesh.hpp"
 #include "modules/muscle/asset/fit/fit_line.hpp"
 
 namespace fascicle::muscle {
@@ -41,9 +43,30 @@ bool can_be_built(const MuscleDescription& description, std::span<const glm::mat
   return check_description(checked, rest_bones).ok();
 }
 
-void warn(const FitInput& input, std::string cause, std::string remedy, FittedMuscle& fitted) {
+constexpr const char* kUnfitted = "the muscle keeps its unfitted shape";
+
+void warn(const FitInput& input, const std::string& cause, std::string remedy, FittedMuscle& fitted) {
+  const std::string name = input.mesh->name.empty() ? "" : fmt::format(" '{}'", input.mesh->name);
   fitted.diagnostics.warnings.push_back(
-      fault_of(*input.description, "mesh", fmt::format("its mesh '{}' {}", input.mesh->name, cause), std::move(remedy)));
+      fault_of(*input.description, "mesh", fmt::format("its mesh{} {}", name, cause), std::move(remedy)));
+}
+
+double length_of(std::span<const glm::dvec3> points) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < points.size(); ++k) length += glm::distance(points[k - 1], points[k]);
+  return length;
+}
+
+// True where the mesh is of the line's size; else it says so.
+bool check_size(const FitInput& input, const TriangleMesh& mesh, double line_length, FittedMuscle& fitted) {
+  const double size = double{mesh_bounds(mesh).diagonal()}, factor = size / line_length;
+  if (factor <= kWrongUnit && factor >= 1.0 / kWrongUnit) return true;
+  const UnitGuess guess = guess_unit(factor);
+  warn(input,
+       fmt::format("is {:.3g} m across, on an action line of {:.3g} m: it seems to be in {}", size, line_length,
+                   guess.unit),
+       fmt::format("give the mesh's unit; {}", kUnfitted), fitted);
+  return false;
 }
 
 FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_bones, const RayDevice& device,
@@ -51,19 +74,31 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   FittedMuscle fitted;
   const MuscleDescription& description = *input.description;
   const std::vector<glm::dvec3> points = section_points(description, rest_bones);
-  const TriangleMesh& mesh = *input.mesh;
+  const CheckedMesh checked = check_mesh(*input.mesh);
+  const TriangleMesh& mesh = checked.mended ? *checked.mended : *input.mesh;
   if (mesh.indices.empty()) {
-    warn(input, "has no triangles", "the muscle keeps its unfitted shape; give it another mesh", fitted);
+    warn(input, input.mesh->indices.empty() ? "has no triangles" : "is left without triangles: " + checked.defects,
+         fmt::format("give another mesh; {}", kUnfitted), fitted);
     return fitted;
   }
-  const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), true);
+  if (!check_size(input, mesh, length_of(points), fitted)) return fitted;
+  const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), checked.sound);
   const glm::dmat3 origin_bone{
       glm::dmat4(rest_bones[static_cast<std::size_t>(description.attachments.front().bone)])};
   const LineFit fit = fit_line(surface, points, origin_bone, description.section_vertices, options);
+  std::string defects = checked.defects;
+  if (defects.empty() && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
   if (!fit.any_hit) {
-    warn(input, "is missed by the muscle's action line altogether",
-         "the muscle keeps its unfitted shape; check the mesh's place and unit", fitted);
+    warn(input,
+         defects.empty() ? "is missed by the muscle's action line altogether: no section's plane meets it"
+                         : fmt::format("is missed by the muscle's action line altogether, or encloses nothing: {}", defects),
+         fmt::format("check its place, unit and holes; {}", kUnfitted), fitted);
     return fitted;
+  }
+  if (!defects.empty()) {
+    warn(input, fmt::format("has defects: {}", defects),
+         "the muscle is fitted all the same, inside being where the winding number exceeds one half; mend the mesh",
+         fitted);
   }
   fitted.sections = fit.sections;
   for (std::size_t k = 0; k < points.size(); ++k) {

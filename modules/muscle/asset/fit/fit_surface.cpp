@@ -93,6 +93,7 @@ void FitSurface::find_inside(std::span<const Line> lines, std::vector<std::uint3
     bool counts = sound_;
     for (const LineCrossing& crossing : crossings) {
       winding += crossing.exit ? -1 : 1;
+      if (winding < 0 || winding > 1) met_overlaps_ = true;
       counts = counts && winding >= 0;
       if (!counts) break;
       if (!crossing.exit && winding == 1) intervals.push_back({crossing.t, crossing.t});
@@ -106,14 +107,7 @@ void FitSurface::find_inside(std::span<const Line> lines, std::vector<std::uint3
   }
 }
 
-void FitSurface::cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
-  if (sound_) {
-    scene_.cast(lines, extremes);
-    for (LineExtremes& found : extremes) {  // seen from one side alone, the line no more than touches the mesh
-      if (std::isinf(found.first_entry) || std::isinf(found.last_exit)) found = {};
-    }
-    return;
-  }
+void FitSurface::cast_by_winding(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
   std::vector<std::uint32_t> starts;
   std::vector<InsideInterval> intervals;
   find_inside(lines, starts, intervals);
@@ -124,6 +118,20 @@ void FitSurface::cast(std::span<const Line> lines, std::span<LineExtremes> extre
     extremes[i].last_exit = static_cast<float>(intervals[starts[i + 1] - 1].to);
     extremes[i].crossings = 2 * (starts[i + 1] - starts[i]);
   }
+}
+
+void FitSurface::cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
+  if (sound_) {
+    scene_.cast(lines, extremes);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      LineExtremes& found = extremes[i];
+      // Seen from one side alone, the line no more than touches the mesh.
+      if (std::isinf(found.first_entry) || std::isinf(found.last_exit)) found = {};
+      else if (found.backwards) cast_by_winding(lines.subspan(i, 1), extremes.subspan(i, 1));
+    }
+    return;
+  }
+  cast_by_winding(lines, extremes);
 }
 
 }  // namespace fascicle::muscle

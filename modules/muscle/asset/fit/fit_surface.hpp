@@ -5,6 +5,7 @@
 // line may enter or leave through a hole, where no triangle is.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,10 +38,14 @@ class FitSurface {
   void find_inside(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
                    std::vector<InsideInterval>& intervals) const;
 
+  // Whether some line so far met parts of the mesh that overlap, or are inside out.
+  bool met_overlaps() const { return met_overlaps_; }
+
   // By winding number.
   bool contains(const glm::dvec3& point) const;
 
  private:
+  void cast_by_winding(std::span<const Line> lines, std::span<LineExtremes> extremes) const;
   // The stretches of one line by winding number, given where it crosses the mesh.
   void append_by_winding(const Line& line, std::span<const LineCrossing> crossings,
                          std::vector<InsideInterval>& intervals) const;
@@ -49,6 +54,7 @@ class FitSurface {
   const TriangleMesh& mesh_;
   RayScene scene_;
   bool sound_;
+  mutable std::atomic<bool> met_overlaps_ = false;
   glm::dvec3 middle_;
   double reach_;  // m
   std::unique_ptr<Winding> winding_;

@@ -1,0 +1,60 @@
+#include "modules/muscle/asset/fit/check_mesh.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "engine/geometry/clean_mesh.hpp"
+#include "engine/geometry/mesh_measures.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+std::uint64_t mixed(std::uint32_t from, std::uint32_t to) {
+  std::uint64_t h = (std::uint64_t{from} << 32 | to) * 0x9e3779b97f4a7c15ull;
+  h ^= h >> 32;
+  h *= 0xd6e8feb86659fd93ull;
+  return h ^ (h >> 29);
+}
+
+}  // namespace
+
+bool is_sound(const TriangleMesh& mesh) {
+  for (const glm::vec3& p : mesh.positions) {
+    if (!std::isfinite(p.x + p.y + p.z)) return false;
+  }
+  std::uint64_t sides = 0;  // the sum over all sides of its hash less its reverse's
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+    sides += mixed(a, b) + mixed(b, c) + mixed(c, a) - mixed(b, a) - mixed(c, b) - mixed(a, c);
+  }
+  return sides == 0 && mesh_volume(mesh) > 0.0;
+}
+
+CheckedMesh check_mesh(const TriangleMesh& mesh) {
+  CheckedMesh checked;
+  checked.sound = is_sound(mesh);
+  if (checked.sound) return checked;
+  CleanMesh clean = clean_mesh(mesh);
+  checked.sound = is_sound(clean.mesh);
+  checked.defects = clean.defects.to_text();
+  checked.source_triangles = std::move(clean.source_triangles);
+  checked.mended = std::move(clean.mesh);
+  return checked;
+}
+
+UnitGuess guess_unit(double factor) {
+  constexpr std::array<UnitGuess, 7> kUnits{{{"millimetres", 1000.0},
+                                             {"centimetres", 100.0},
+                                             {"inches", 39.37},
+                                             {"millimetres given as centimetres", 10.0},
+                                             {"centimetres given as millimetres", 0.1},
+                                             {"metres given as centimetres", 0.01},
+                                             {"metres given as millimetres", 0.001}}};
+  UnitGuess best = kUnits[0];
+  for (const UnitGuess& unit : kUnits) {
+    if (std::abs(std::log(factor / unit.factor)) < std::abs(std::log(factor / best.factor))) best = unit;
+  }
+  return best;
+}
+
+}  // namespace fascicle::muscle
