@@ -132,7 +132,8 @@ bool MeshSource::skip(NumberType type, std::uint64_t count) {
 
 bool MeshSource::can_hold(std::uint64_t count, std::size_t size, std::string_view of_what) {
   // The last word of a text needs nothing after it.
-  if (count <= (remaining() + 1) / size && count <= kMaxPoints) return true;
+  const std::size_t room = remaining() + (encoding_ == MeshEncoding::kText ? 1 : 0);
+  if (count <= room / size && count <= kMaxPoints) return true;
   error(fmt::format("{} {} do not fit into the {} bytes that follow", count, of_what, remaining()),
         "correct the number; is the file complete?");
   return false;

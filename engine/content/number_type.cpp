@@ -22,35 +22,15 @@ double decode(std::endian order, const char* bytes) {
 }  // namespace
 
 std::size_t byte_size(NumberType type) {
-  switch (type) {
-    case NumberType::kInt8:
-    case NumberType::kUint8: return 1;
-    case NumberType::kInt16:
-    case NumberType::kUint16: return 2;
-    case NumberType::kInt32:
-    case NumberType::kUint32:
-    case NumberType::kFloat32: return 4;
-    case NumberType::kInt64:
-    case NumberType::kUint64:
-    case NumberType::kFloat64: return 8;
-  }
-  return 0;
+  static constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};  // in the order of the types
+  return kSizes[static_cast<std::size_t>(type)];
 }
 
 double decode_number(NumberType type, std::endian order, const char* bytes) {
-  switch (type) {
-    case NumberType::kInt8: return decode<std::int8_t>(order, bytes);
-    case NumberType::kUint8: return decode<std::uint8_t>(order, bytes);
-    case NumberType::kInt16: return decode<std::int16_t>(order, bytes);
-    case NumberType::kUint16: return decode<std::uint16_t>(order, bytes);
-    case NumberType::kInt32: return decode<std::int32_t>(order, bytes);
-    case NumberType::kUint32: return decode<std::uint32_t>(order, bytes);
-    case NumberType::kInt64: return decode<std::int64_t>(order, bytes);
-    case NumberType::kUint64: return decode<std::uint64_t>(order, bytes);
-    case NumberType::kFloat32: return decode<float>(order, bytes);
-    case NumberType::kFloat64: return decode<double>(order, bytes);
-  }
-  return 0.0;
+  static constexpr double (*kDecoders[])(std::endian, const char*) = {
+      decode<std::int8_t>,   decode<std::uint8_t>, decode<std::int16_t>,  decode<std::uint16_t>, decode<std::int32_t>,
+      decode<std::uint32_t>, decode<std::int64_t>, decode<std::uint64_t>, decode<float>,         decode<double>};
+  return kDecoders[static_cast<std::size_t>(type)](order, bytes);
 }
 
 std::string_view parse_number(std::string_view word, double& number) {
@@ -58,7 +38,10 @@ std::string_view parse_number(std::string_view word, double& number) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const char* const end = word.data() + word.size();
   const auto [rest, code] = std::from_chars(word.data(), end, number);
-  if (rest != end || code == std::errc::invalid_argument) return "is not a number";
+  if (rest != end || code == std::errc::invalid_argument) {
+    number = 0.0;
+    return "is not a number";
+  }
   if (code != std::errc::result_out_of_range) return {};
   const std::size_t exponent = word.find_first_of("eE");
   const bool tiny = exponent != std::string_view::npos && word.substr(exponent + 1).starts_with('-');

@@ -42,7 +42,8 @@ class ObjParser {
     return word;
   }
   void skip_rest() {
-    while (source_.line().ends_with('\\')) {}
+    while (source_.line().ends_with('\\')) {
+    }
   }
 
   void read_vertex() {

@@ -18,10 +18,10 @@ namespace {
 
 std::optional<NumberType> find_type(std::string_view name) {
   static constexpr std::pair<std::string_view, NumberType> kTypes[] = {
-      {"char", NumberType::kInt8},      {"int8", NumberType::kInt8},     {"uchar", NumberType::kUint8},
-      {"uint8", NumberType::kUint8},    {"short", NumberType::kInt16},   {"int16", NumberType::kInt16},
-      {"ushort", NumberType::kUint16},  {"uint16", NumberType::kUint16}, {"int", NumberType::kInt32},
-      {"int32", NumberType::kInt32},    {"uint", NumberType::kUint32},   {"uint32", NumberType::kUint32},
+      {"char", NumberType::kInt8},      {"int8", NumberType::kInt8},       {"uchar", NumberType::kUint8},
+      {"uint8", NumberType::kUint8},    {"short", NumberType::kInt16},     {"int16", NumberType::kInt16},
+      {"ushort", NumberType::kUint16},  {"uint16", NumberType::kUint16},   {"int", NumberType::kInt32},
+      {"int32", NumberType::kInt32},    {"uint", NumberType::kUint32},     {"uint32", NumberType::kUint32},
       {"float", NumberType::kFloat32},  {"float32", NumberType::kFloat32}, {"double", NumberType::kFloat64},
       {"float64", NumberType::kFloat64}};
   for (const auto& [known, type] : kTypes) {
@@ -145,8 +145,8 @@ class PlyParser {
     if (element.name == "vertex") return read_vertices(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
-        const bool is_face = element.name == "face" &&
-                             (property.name == "vertex_indices" || property.name == "vertex_index");
+        const bool is_face =
+            element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
         if (!(is_face || element.name == "tristrips" ? read_cell(property, is_face) : skip(property))) return false;
       }
     }

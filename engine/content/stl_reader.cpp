@@ -42,8 +42,9 @@ class StlParser {
       if (size < kHeader + kCount) {
         source_.error_at(size, fmt::format("{} bytes are no .stl", size), "is it complete?");
       } else {
-        source_.error_at(kHeader, fmt::format("{} triangles take {} bytes, but the file has {}", facets,
-                                              kHeader + kCount + kFacet * static_cast<std::uint64_t>(facets), size),
+        source_.error_at(kHeader,
+                         fmt::format("{} triangles take {} bytes, but the file has {}", facets,
+                                     kHeader + kCount + kFacet * static_cast<std::uint64_t>(facets), size),
                          "is it complete? An ASCII file begins with 'solid'");
       }
     }

@@ -22,14 +22,20 @@ std::string lower(std::string_view text) {
 
 // `long` has eight bytes, as where such files are written; vtkIdType was always written as int.
 std::optional<NumberType> find_type(std::string_view name) {
-  static constexpr std::pair<std::string_view, NumberType> kTypes[] = {
-      {"char", NumberType::kInt8},           {"signed_char", NumberType::kInt8},
-      {"unsigned_char", NumberType::kUint8}, {"short", NumberType::kInt16},
-      {"unsigned_short", NumberType::kUint16}, {"int", NumberType::kInt32},
-      {"unsigned_int", NumberType::kUint32}, {"long", NumberType::kInt64},
-      {"unsigned_long", NumberType::kUint64}, {"vtktypeint64", NumberType::kInt64},
-      {"vtktypeuint64", NumberType::kUint64}, {"vtkidtype", NumberType::kInt32},
-      {"float", NumberType::kFloat32},       {"double", NumberType::kFloat64}};
+  static constexpr std::pair<std::string_view, NumberType> kTypes[] = {{"char", NumberType::kInt8},
+                                                                       {"signed_char", NumberType::kInt8},
+                                                                       {"unsigned_char", NumberType::kUint8},
+                                                                       {"short", NumberType::kInt16},
+                                                                       {"unsigned_short", NumberType::kUint16},
+                                                                       {"int", NumberType::kInt32},
+                                                                       {"unsigned_int", NumberType::kUint32},
+                                                                       {"long", NumberType::kInt64},
+                                                                       {"unsigned_long", NumberType::kUint64},
+                                                                       {"vtktypeint64", NumberType::kInt64},
+                                                                       {"vtktypeuint64", NumberType::kUint64},
+                                                                       {"vtkidtype", NumberType::kInt32},
+                                                                       {"float", NumberType::kFloat32},
+                                                                       {"double", NumberType::kFloat64}};
   const std::string lowered = lower(name);
   for (const auto& [known, type] : kTypes) {
     if (known == lowered) return type;
@@ -147,8 +153,8 @@ class VtkParser {
   void read_cells(CellList& cells) {
     if (!cells.ends.empty()) return source_.error("cells of one kind for the second time", "keep one section of each");
     std::uint64_t count = 0, size = 0;
-    if (!source_.read_count("cells", count) || !source_.read_count("numbers", size)) return;
-    if (!source_.can_hold(count, least_size(), "cells") || !source_.can_hold(size, least_size(), "numbers")) return;
+    if (!source_.read_count("cells", count) || !source_.can_hold(count, least_size(), "cells")) return;
+    if (!source_.read_count("numbers", size) || !source_.can_hold(size, least_size(), "numbers")) return;
     return version_ < 5 ? read_counted_cells(count, size, cells) : read_offset_cells(count, size, cells);
   }
 
@@ -158,8 +164,9 @@ class VtkParser {
     std::uint64_t left = size;
     for (std::uint64_t i = 0; i < count; ++i) {
       std::uint32_t corners = 0;
-      if (left == 0) return source_.error(fmt::format("{} of {} cells use up its {} numbers", i, count, size),
-                                          "correct the counts of the section");
+      if (left == 0)
+        return source_.error(fmt::format("{} of {} cells use up its {} numbers", i, count, size),
+                             "correct the counts of the section");
       if (!source_.read_index(NumberType::kInt32, left, "numbers left in this section", corners)) return;
       for (std::uint32_t k = 0; k < corners; ++k) {
         std::uint32_t point = 0;
@@ -178,8 +185,8 @@ class VtkParser {
   void read_offset_cells(std::uint64_t offset_count, std::uint64_t size, CellList& cells) {
     if (offset_count == 0) return;
     std::vector<std::uint32_t> offsets;
-    const auto read_array = [&](std::string_view name, std::uint64_t count, std::size_t below,
-                                std::string_view of_what, std::vector<std::uint32_t>& numbers) {
+    const auto read_array = [&](std::string_view name, std::uint64_t count, std::size_t below, std::string_view of_what,
+                                std::vector<std::uint32_t>& numbers) {
       if (lower(source_.word()) != name) {
         source_.error(fmt::format("no {}", name), "cells of version 5 are OFFSETS, then CONNECTIVITY");
         return false;

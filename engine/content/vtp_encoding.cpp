@@ -12,7 +12,6 @@ namespace fascicle {
 namespace {
 
 constexpr double kMaxRatio = 1100.0;  // zlib reaches 1032
-constexpr double kMaxBytes = kMaxVtpArrayBytes;
 
 constexpr std::array<std::int8_t, 256> make_base64_values() {
   std::array<std::int8_t, 256> values{};
@@ -30,7 +29,7 @@ class ByteStream {
   ByteStream(std::string_view data, bool is_base64) : data_(data), is_base64_(is_base64) {}
 
   std::optional<std::string> take(double count) {
-    if (count > kMaxBytes) return std::nullopt;
+    if (count > static_cast<double>(data_.size())) return std::nullopt;
     const double digits = is_base64_ ? 4.0 * static_cast<double>((static_cast<std::uint64_t>(count) + 2) / 3) : count;
     if (digits > static_cast<double>(data_.size())) return std::nullopt;
     const std::string_view part = data_.substr(0, static_cast<std::size_t>(digits));
@@ -83,8 +82,10 @@ VtpArray inflate_blocks(ByteStream stream, const VtpEncoding& encoding) {
   double packed_size = 0.0;
   for (std::size_t i = 0; i < blocks; ++i) packed_size += number(3 + i);
   const double size = (block_count - 1.0) * block_size + last_size;
-  if (size > kMaxBytes || size > kMaxRatio * packed_size)
+  if (size > kMaxRatio * packed_size)
     return fault(fmt::format("its header promises {} bytes from {} packed ones", size, packed_size));
+  if (size > static_cast<double>(encoding.max_bytes))
+    return fault(fmt::format("it unpacks to {} bytes where {} are allowed", size, encoding.max_bytes));
   const std::optional<std::string> packed = stream.take(packed_size);
   if (!packed) return fault(fmt::format("{} packed bytes should follow its header, but do not", packed_size));
 
@@ -95,9 +96,9 @@ VtpArray inflate_blocks(ByteStream stream, const VtpEncoding& encoding) {
     const auto packed_block = static_cast<std::size_t>(number(3 + i));
     const auto block = static_cast<std::size_t>(i + 1 == blocks ? last_size : block_size);
     uLongf length = static_cast<uLongf>(block);
-    const int code = uncompress(reinterpret_cast<Bytef*>(array.bytes.data() + to), &length,
-                                reinterpret_cast<const Bytef*>(packed->data() + from),
-                                static_cast<uLong>(packed_block));
+    const int code =
+        uncompress(reinterpret_cast<Bytef*>(array.bytes.data() + to), &length,
+                   reinterpret_cast<const Bytef*>(packed->data() + from), static_cast<uLong>(packed_block));
     if (code != Z_OK || length != block) return fault(fmt::format("block {} of {} cannot be unpacked", i, blocks));
     from += packed_block;
     to += block;

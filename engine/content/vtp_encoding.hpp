@@ -11,12 +11,11 @@
 
 namespace fascicle {
 
-constexpr std::size_t kMaxVtpArrayBytes = std::size_t{1} << 30;
-
 struct VtpEncoding {
   std::endian order = std::endian::little;
   NumberType header = NumberType::kUint32;  // of the sizes; or kUint64
   bool compressed = false;
+  std::size_t max_bytes = std::size_t{1} << 30;  // that an array may unpack to
 };
 
 struct VtpArray {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -28,12 +28,13 @@ namespace fascicle {
 namespace {
 
 constexpr std::size_t kMaxErrors = 20;
+constexpr std::size_t kMaxGrowth = 64;  // arrays may name the same bytes over and over, or hardly any packed ones
 constexpr std::size_t kMaxPoints = 0xfffffffe;
 
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
 std::optional<NumberType> find_type(std::string_view name) {
-  static constexpr std::string_view kNames[] = {"Int8",  "UInt8",  "Int16",  "UInt16",  "Int32",
+  static constexpr std::string_view kNames[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
                                                 "UInt32", "Int64", "UInt64", "Float32", "Float64"};
   const auto found = std::ranges::find(kNames, name);
   if (found == std::end(kNames)) return std::nullopt;
@@ -43,6 +44,7 @@ std::optional<NumberType> find_type(std::string_view name) {
 class VtpParser {
  public:
   VtpParser(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
+    encoding_.max_bytes = kMaxGrowth * text_.size();
     cut_appended_data();
     lines_ = LineTable(text_);
   }
@@ -281,12 +283,11 @@ class VtpParser {
       error(array, -1, decoded.fault, "is the file complete?");
       return false;
     }
-    // Arrays may name the same bytes again and again.
-    decoded_bytes_ += decoded.bytes.size();
-    if (decoded_bytes_ > kMaxVtpArrayBytes) {
-      error(array, -1, fmt::format("the arrays are over {} bytes", kMaxVtpArrayBytes), "split the mesh");
+    if (decoded.bytes.size() > encoding_.max_bytes) {
+      error(array, -1, fmt::format("arrays over {} times as large as the file", kMaxGrowth), "split the mesh");
       return false;
     }
+    encoding_.max_bytes -= decoded.bytes.size();
     for (std::size_t i = 0; i < count; ++i) {
       const std::string cause = take(decode_number(*type, encoding_.order, decoded.bytes.data() + i * size));
       if (cause.empty()) continue;
@@ -302,10 +303,11 @@ class VtpParser {
       std::erase_if(digits, is_space);
       return decode_vtp_base64(digits, encoding_);
     }
-    const std::uint64_t offset = array.attribute("offset").as_ullong(std::numeric_limits<std::uint64_t>::max());
-    if (offset > appended_.size())
-      return {{}, fmt::format("offset \"{}\" into {} bytes of AppendedData", array.attribute("offset").value(),
-                              appended_.size())};
+    const std::string_view given = array.attribute("offset").value();
+    std::uint64_t offset = 0;
+    const auto [rest, code] = std::from_chars(given.data(), given.data() + given.size(), offset);
+    if (code != std::errc() || rest != given.data() + given.size() || offset > appended_.size())
+      return {{}, fmt::format("offset \"{}\" into {} bytes of AppendedData", given, appended_.size())};
     const std::string_view data = std::string_view(appended_).substr(offset);
     return appended_is_base64_ ? decode_vtp_base64(data, encoding_) : decode_vtp_raw(data, encoding_);
   }
@@ -348,7 +350,6 @@ class VtpParser {
   std::string file_;
   VtpEncoding encoding_;
   bool appended_is_base64_ = false;
-  std::size_t decoded_bytes_ = 0;  // of all arrays so far
   LineTable lines_;
   TriangleMesh mesh_;
   Diagnostics diagnostics_;

@@ -24,12 +24,12 @@ struct MeshDefects {
   bool inverted = false;                 // most were inside out
 
   // Still there.
-  std::size_t open_edges = 0;     // with one triangle
-  std::size_t holes = 0;          // connected sets of open edges
-  std::size_t crowded_edges = 0;  // with more than two triangles
-  std::size_t twisted_edges = 0;  // where a one-sided surface (a Moebius strip) contradicts itself
-  std::size_t self_intersections = 0;       // pairs of triangles that cross, or overlap in a plane
-  bool more_self_intersections = false;     // the search was cut off: there are at least that many
+  std::size_t open_edges = 0;            // with one triangle
+  std::size_t holes = 0;                 // connected sets of open edges
+  std::size_t crowded_edges = 0;         // with more than two triangles
+  std::size_t twisted_edges = 0;         // where a one-sided surface (a Moebius strip) contradicts itself
+  std::size_t self_intersections = 0;    // pairs of triangles that cross, or overlap in a plane
+  bool more_self_intersections = false;  // the search was cut off: there are at least that many
 
   std::size_t components = 0;  // parts that hang together by edges with two triangles
 

@@ -24,9 +24,8 @@ MeshEdges find_edges(std::span<const std::uint32_t> indices, std::size_t vertex_
   edges.opposite.assign(side_count, kNoSide);
   std::uint32_t begin = 0;
   for (std::size_t v = 0; v < vertex_count; begin = ends[v], ++v) {
-    std::sort(entries.begin() + begin, entries.begin() + ends[v], [](const Entry& a, const Entry& b) {
-      return std::tie(a.high, a.side) < std::tie(b.high, b.side);
-    });
+    std::sort(entries.begin() + begin, entries.begin() + ends[v],
+              [](const Entry& a, const Entry& b) { return std::tie(a.high, a.side) < std::tie(b.high, b.side); });
     for (std::uint32_t i = begin; i < ends[v]; ++i) {
       if (i == begin || entries[i].high != entries[i - 1].high) edges.offsets.push_back(i);
       edges.sides.push_back(entries[i].side);

@@ -184,8 +184,7 @@ class Orienter {
       component.sheet = component.cap_area >= kSheet * component.area;
       sheets += component.sheet;
       const bool flat = std::abs(component.volume) <= kFlat * std::pow(component.area, 1.5);
-      component.turn =
-          component.sheet || flat ? 2 * component.against > component.triangles : component.volume < 0.0;
+      component.turn = component.sheet || flat ? 2 * component.against > component.triangles : component.volume < 0.0;
     }
     if (sheets < 2 || !sheets_face_inward()) return;
     for (Component& component : components_) component.turn ^= component.sheet;

@@ -47,8 +47,7 @@ struct Found {
 // Triangles along a space-filling curve, and a complete binary tree of boxes over them.
 class TriangleTree {
  public:
-  TriangleTree(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices)
-      : positions_(positions) {
+  TriangleTree(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) : positions_(positions) {
     sort_triangles(indices);
     leaf_count_ = std::bit_ceil((triangles_.size() + kLeaf - 1) / kLeaf);
     nodes_.resize(2 * leaf_count_);

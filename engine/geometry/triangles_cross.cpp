@@ -25,8 +25,8 @@ int side_of_plane(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
   const glm::dvec3 u = a - p, v = b - p, w = c - p;
   const double det = glm::dot(u, glm::cross(v, w));
   const glm::dvec3 au = glm::abs(u), av = glm::abs(v), aw = glm::abs(w);
-  const double size = au.x * (av.y * aw.z + av.z * aw.y) + au.y * (av.z * aw.x + av.x * aw.z) +
-                      au.z * (av.x * aw.y + av.y * aw.x);
+  const double size =
+      au.x * (av.y * aw.z + av.z * aw.y) + au.y * (av.z * aw.x + av.x * aw.z) + au.z * (av.x * aw.y + av.y * aw.x);
   return sign_beyond(det, kSpaceError * size);
 }
 
@@ -66,9 +66,8 @@ int turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 bool separates(const std::array<glm::dvec2, 3>& first, const std::array<glm::dvec2, 3>& second) {
   const int sense = turn(first[0], first[1], first[2]);
   for (std::size_t k = 0; k < 3; ++k) {
-    if (std::ranges::all_of(second, [&](const glm::dvec2& p) {
-          return sense * turn(first[k], first[(k + 1) % 3], p) <= 0;
-        })) {
+    if (std::ranges::all_of(second,
+                            [&](const glm::dvec2& p) { return sense * turn(first[k], first[(k + 1) % 3], p) <= 0; })) {
       return true;
     }
   }

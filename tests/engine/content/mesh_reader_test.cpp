@@ -40,8 +40,9 @@ class MeshReader : public testing::Test {
 };
 
 TEST_F(MeshReader, UnknownFormatsListWhatIsSupported) {
-  EXPECT_EQ(to_text(read_mesh("bone.fbx").diagnostics()),
-            "error: bone.fbx: unknown mesh format '.fbx'; supported are .vtk, .vtp, .obj, .ply, .stl, .glb and .gltf\n");
+  EXPECT_EQ(
+      to_text(read_mesh("bone.fbx").diagnostics()),
+      "error: bone.fbx: unknown mesh format '.fbx'; supported are .vtk, .vtp, .obj, .ply, .stl, .glb and .gltf\n");
   EXPECT_THAT(to_text(read_mesh("none.vtp").diagnostics()), HasSubstr("none.vtp: no such file"));
   EXPECT_THAT(to_text(read_mesh("none.glb#a").diagnostics()), HasSubstr("none.glb: no such file"));
 }

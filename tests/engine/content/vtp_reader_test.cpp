@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "tests/engine/content/mesh_file_cases.hpp"
 #include "tests/support/test_data.hpp"
 
 namespace fascicle {
 namespace {
 
+using test::Broken;
+using test::with;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -36,17 +40,6 @@ const std::string kSquare = R"(<?xml version="1.0"?>
 </PolyData>
 </VTKFile>
 )";
-
-std::string with(std::string text, const std::string& find, const std::string& replacement) {
-  const std::size_t at = text.find(find);
-  EXPECT_NE(at, std::string::npos) << find;
-  return text.replace(at, find.size(), replacement);
-}
-
-struct Broken {
-  std::string text;
-  std::string message;
-};
 
 TEST(VtpReader, BrokenFilesAreNamedWithLineCauseAndRemedy) {
   const std::string arrays = "/VTKFile/PolyData/Piece/Polys/DataArray";
@@ -82,11 +75,7 @@ TEST(VtpReader, BrokenFilesAreNamedWithLineCauseAndRemedy) {
       {with(kSquare, ">0 1 2 3 1 4 2<", "><b/><"), "elements inside an array"},
       {with(with(kSquare, ">0 1 2 3 1 4 2<", ">0 1<"), ">4 7<", ">1 2<"), "no polygons"},
   };
-  for (const Broken& broken : cases) {
-    const Result<TriangleMesh> result = parse_vtp(broken.text, "f.vtp");
-    ASSERT_FALSE(result.ok()) << broken.message;
-    EXPECT_THAT(to_text(result.diagnostics()), HasSubstr(broken.message));
-  }
+  test::expect_messages(cases, [](const std::string& text) { return parse_vtp(text, "f.vtp"); });
 }
 
 TEST(VtpReader, PolygonsBecomeFans) {
@@ -127,6 +116,79 @@ TEST(VtpReader, LinesAreLeftOutWithAWarning) {
       with(kSquare, "<Polys>", "<Lines><DataArray Name=\"connectivity\">0 1</DataArray></Lines>\n<Polys>"), "f.vtp");
   ASSERT_TRUE(mesh.ok());
   EXPECT_THAT(to_text(mesh.diagnostics()), HasSubstr("warning: f.vtp:14:2: /VTKFile/PolyData/Piece/Lines: ignored"));
+}
+
+// The corner of a cube with its arrays behind the XML: where they begin is filled in.
+std::string appended_corner(const std::string& points, const std::string& connectivity, const std::string& offsets) {
+  std::string text = R"(<VTKFile type="PolyData" byte_order="BigEndian" header_type="UInt64"><PolyData><Piece>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="appended" offset="0"/></Points>
+<Polys><DataArray type="UInt8" Name="connectivity" format="appended" offset="%1"/>
+<DataArray type="Int16" Name="offsets" format="appended" offset="%2"/></Polys>
+</Piece></PolyData>
+<AppendedData encoding="raw">
+  _)";
+  text = with(text, "%1", std::to_string(points.size()));
+  text = with(text, "%2", std::to_string(points.size() + connectivity.size()));
+  return text + points + connectivity + offsets + "\n</AppendedData></VTKFile>\n";
+}
+
+template <class T>
+std::string sized(std::initializer_list<T> numbers) {
+  return test::bytes_of<std::uint64_t>({numbers.size() * sizeof(T)}, std::endian::big) +
+         test::bytes_of<T>(numbers, std::endian::big);
+}
+
+TEST(VtpReader, AppendedArraysAreRead) {
+  const std::string points = sized<double>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  const std::string connectivity = sized<std::uint8_t>({0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+  const std::string offsets = sized<std::int16_t>({3, 6, 9, 12});
+  const std::string good = appended_corner(points, connectivity, offsets);
+  const Result<TriangleMesh> mesh = parse_vtp(good, "f.vtp");
+  ASSERT_TRUE(mesh.ok()) << to_text(mesh.diagnostics());
+  EXPECT_EQ(mesh->positions[3], glm::vec3(0, 0, 1));
+  EXPECT_THAT(mesh->indices, ElementsAre(0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3));
+
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string base = "/VTKFile/PolyData/Piece/";
+  const Broken cases[] = {
+      {with(good, "\"0\"/", "\"1000\"/"), "f.vtp:2:10: " + base + "Points/DataArray: offset \"1000\" into"},
+      {with(good, "\"0\"/", "\"-1\"/"), "offset \"-1\" into"},
+      {with(good, " offset=\"0\"/", "/"), "offset \"\" into"},
+      {with(good, "Float64", "Float16"), "f.vtp:2:10: " + base + "Points/DataArray: type is \"Float16\""},
+      {with(good, "UInt64", "UInt32"), "/VTKFile/PolyData: no polygons"},
+      {with(good, "type=\"PolyData\"", "type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\""),
+       "f.vtp:1:2: /VTKFile: compressor is \"vtkLZ4DataCompressor\"; save it compressed with zlib, or not at all"},
+      {with(good, "type=\"PolyData\"", "type=\"PolyData\" compressor=\"vtkZLibDataCompressor\""),
+       "its header tells of"},
+      {appended_corner(sized<double>({0, 0, 0, 1, nan, 0}), connectivity, offsets),
+       "Points/DataArray: value 4: nan is not finite; write a finite number"},
+      {appended_corner(points, sized<std::uint8_t>({0, 2, 4}), offsets),
+       "f.vtp:3:9: " + base + "Polys/DataArray[@Name='connectivity']: value 2: 4 is out of range"},
+      {appended_corner(points, connectivity, sized<std::int16_t>({3, -1})), "value 1: -1 is out of range"},
+  };
+  test::expect_messages(cases, [](const std::string& text) { return parse_vtp(text, "f.vtp"); });
+  test::expect_cuts_are_survived(good, [](const std::string& text) { return parse_vtp(text, "f.vtp"); });
+}
+
+TEST(VtpReader, ArraysThatNameTheSameBytesOverAndOverEnd) {
+  // 100 pieces, each with the same 100 kB of points.
+  std::string text = "<VTKFile type=\"PolyData\"><PolyData>";
+  for (int i = 0; i < 100; ++i) {
+    text +=
+        "<Piece><Points><DataArray type=\"Int8\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>"
+        "</Points></Piece>";
+  }
+  text += "</PolyData><AppendedData encoding=\"raw\">_" + test::bytes_of<std::uint32_t>({100002}, std::endian::little);
+  text += std::string(100002, '\1') + "</AppendedData></VTKFile>";
+  EXPECT_THAT(to_text(parse_vtp(text, "f.vtp").diagnostics()),
+              HasSubstr("arrays over 64 times as large as the file; split the mesh"));
+}
+
+TEST(VtpReader, FilesThatVtkWrote) {
+  test::expect_seeds_are_tetrahedra(
+      "fuzz_vtp_reader",
+      {"inline_plain.vtp", "inline_zlib.vtp", "appended_base64.vtp", "appended_raw.vtp", "appended_raw_zlib.vtp"},
+      read_vtp);
 }
 
 TEST(VtpReader, AllBonesOfOpenSimAreRead) {

@@ -1,5 +1,8 @@
 #include "engine/geometry/clean_mesh.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -9,8 +12,6 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "engine/content/mesh_reader.hpp"
 #include "engine/geometry/mesh_measures.hpp"
@@ -53,7 +54,8 @@ TriangleMesh shatter(const TriangleMesh& mesh, std::uint32_t seed) {
     for (int copies = numbers.next() < 0.2f ? 2 : 1; copies > 0; --copies) {
       const std::uint32_t first = static_cast<std::uint32_t>(out.positions.size());
       const auto start = static_cast<std::uint32_t>(numbers.next() * 3.0f);
-      for (std::uint32_t k = 0; k < 3; ++k) out.positions.push_back(mesh.positions[mesh.indices[3 * t + (start + k) % 3]]);
+      for (std::uint32_t k = 0; k < 3; ++k)
+        out.positions.push_back(mesh.positions[mesh.indices[3 * t + (start + k) % 3]]);
       const bool flip = numbers.next() < 0.5f;
       out.indices.insert(out.indices.end(), {first, first + (flip ? 2u : 1u), first + (flip ? 1u : 2u)});
     }
@@ -124,7 +126,8 @@ TEST(CleanMesh, ASoundMeshStaysAsItIs) {
 }
 
 TEST(CleanMesh, ShatteredMeshesComeBack) {
-  const TriangleMesh shapes[] = {kBox, test::make_sphere(0.02f, 9, 14, {5, 0, 0}), test::make_torus(100.0f, 30.0f, 24, 9)};
+  const TriangleMesh shapes[] = {kBox, test::make_sphere(0.02f, 9, 14, {5, 0, 0}),
+                                 test::make_torus(100.0f, 30.0f, 24, 9)};
   for (const TriangleMesh& whole : shapes) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
       const TriangleMesh soup = shatter(whole, seed);
@@ -167,10 +170,10 @@ TEST(CleanMesh, AVertexInAnEdgeIsJoinedToTheTriangleAcross) {
   // its neighbours together.
   TriangleMesh mesh = kBox;
   mesh.positions.push_back({0.5f, 0.0f, 0.0f});
-  mesh.indices[0] = 0, mesh.indices[1] = 2, mesh.indices[2] = 1;        // below
-  mesh.indices.insert(mesh.indices.end(), {0, 1, 8});                   // no area
+  mesh.indices[0] = 0, mesh.indices[1] = 2, mesh.indices[2] = 1;  // below
+  mesh.indices.insert(mesh.indices.end(), {0, 1, 8});             // no area
   const std::array<std::uint32_t, 3> front = {mesh.indices[12], mesh.indices[13], mesh.indices[14]};
-  EXPECT_THAT(front, ElementsAre(0, 1, 4));                             // the face y = 0, split at the vertex
+  EXPECT_THAT(front, ElementsAre(0, 1, 4));  // the face y = 0, split at the vertex
   mesh.indices[12] = 0, mesh.indices[13] = 8, mesh.indices[14] = 4;
   mesh.indices.insert(mesh.indices.end(), {8, 1, 4});
   const CleanMesh clean = clean_mesh(mesh);
@@ -241,7 +244,8 @@ TEST(CleanMesh, AnythingCanBeCleaned) {
     const CleanMesh again = clean_mesh(clean.mesh);
     EXPECT_EQ(again.mesh.positions, clean.mesh.positions);
     EXPECT_EQ(triangles_of(again.mesh).size(), triangles_of(clean.mesh).size());
-    EXPECT_EQ(again.defects.degenerate_triangles + again.defects.duplicate_triangles + again.defects.welded_vertices, 0u);
+    EXPECT_EQ(again.defects.degenerate_triangles + again.defects.duplicate_triangles + again.defects.welded_vertices,
+              0u);
     EXPECT_EQ(again.defects.open_edges, clean.defects.open_edges);
     EXPECT_EQ(again.defects.self_intersections, clean.defects.self_intersections);
   }

@@ -1,13 +1,13 @@
 #include "engine/geometry/orient_triangles.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/support/shapes.hpp"
 
@@ -125,7 +125,8 @@ TEST(OrientTriangles, PatchesAroundAMiddleAreTurnedTogether) {
     // The second triangle's corners that it shares with the first.
     for (std::size_t k = 3; k < 6; ++k) {
       for (std::size_t j = 0; j < 3; ++j) {
-        if (box.indices[6 * f + k] == box.indices[6 * f + j]) faces.indices[6 * f + k] = static_cast<std::uint32_t>(6 * f + j);
+        if (box.indices[6 * f + k] == box.indices[6 * f + j])
+          faces.indices[6 * f + k] = static_cast<std::uint32_t>(6 * f + j);
       }
     }
   }

@@ -1,10 +1,11 @@
 #include "engine/geometry/self_intersections.hpp"
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "engine/geometry/triangles_cross.hpp"
 #include "engine/parallel/worker_arena.hpp"
@@ -55,8 +56,8 @@ TEST(TrianglesCross, InOnePlane) {
 }
 
 TEST(TrianglesCross, NeighboursTouchOnly) {
-  const std::vector<glm::vec3> p = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, 0}, {0.2f, 0.2f, 1},
-                                    {0.2f, 0.2f, -1}, {0.5f, 0.1f, 0}};
+  const std::vector<glm::vec3> p = {{0, 0, 0},   {1, 0, 0},       {0, 1, 0},        {0, 0, 1},
+                                    {-1, -1, 0}, {0.2f, 0.2f, 1}, {0.2f, 0.2f, -1}, {0.5f, 0.1f, 0}};
   EXPECT_FALSE(triangles_cross(p, {0, 1, 2}, {1, 0, 3}));  // an edge in common
   EXPECT_FALSE(triangles_cross(p, {0, 1, 2}, {0, 3, 4}));  // a corner
   EXPECT_TRUE(triangles_cross(p, {0, 1, 2}, {0, 5, 6}));   // a corner, but the edge across passes through
@@ -77,9 +78,7 @@ bool cross_by_line(const Triangle& a, const Triangle& b) {
     if (found == 2 && out[0] > out[1]) std::swap(out[0], out[1]);
     return found == 2;
   };
-  const auto normal = [](const Triangle& t) {
-    return glm::cross(Vec(t[1]) - Vec(t[0]), Vec(t[2]) - Vec(t[0]));
-  };
+  const auto normal = [](const Triangle& t) { return glm::cross(Vec(t[1]) - Vec(t[0]), Vec(t[2]) - Vec(t[0])); };
   const Vec along = glm::cross(normal(a), normal(b));
   long double ia[2], ib[2];
   return interval(a, b, along, ia) && interval(b, a, along, ib) && ia[0] < ib[1] && ib[0] < ia[1];
@@ -117,9 +116,11 @@ TEST(SelfIntersections, SimpleSurfacesHaveNone) {
 
 TEST(SelfIntersections, OverlapsAreFound) {
   EXPECT_GT(find(test::make_torus(0.3f, 0.5f, 40, 20)).pairs, 100u);  // a spindle
-  EXPECT_GT(find(test::join(test::make_sphere(1.0f, 20, 30), test::make_sphere(1.0f, 20, 30, {0.5f, 0, 0}))).pairs, 50u);
+  EXPECT_GT(find(test::join(test::make_sphere(1.0f, 20, 30), test::make_sphere(1.0f, 20, 30, {0.5f, 0, 0}))).pairs,
+            50u);
   // Boxes pushed along one axis cross nowhere: their faces overlap in their planes.
-  EXPECT_GT(find(test::join(test::make_box({0, 0, 0}, {1, 1, 1}), test::make_box({0.5f, 0, 0}, {1.5f, 1, 1}))).pairs, 7u);
+  EXPECT_GT(find(test::join(test::make_box({0, 0, 0}, {1, 1, 1}), test::make_box({0.5f, 0, 0}, {1.5f, 1, 1}))).pairs,
+            7u);
 }
 
 TEST(SelfIntersections, AreAllThatTestingEveryPairFinds) {

@@ -1,10 +1,11 @@
 #include "engine/geometry/weld_vertices.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/support/shapes.hpp"
 
@@ -38,7 +39,8 @@ TEST(WeldVertices, AgreesWithLookingAtEveryPair) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       expected[i] = i;
       for (std::uint32_t j = i; j-- > 0;) {
-        if (expected[j] == j && glm::distance(glm::dvec3(points[i]), glm::dvec3(points[j])) <= tolerance) expected[i] = j;
+        if (expected[j] == j && glm::distance(glm::dvec3(points[i]), glm::dvec3(points[j])) <= tolerance)
+          expected[i] = j;
       }
     }
     EXPECT_EQ(weld_vertices(points, tolerance), expected);
