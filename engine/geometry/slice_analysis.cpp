@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/common.hpp>
@@ -12,8 +13,7 @@
 namespace fascicle {
 namespace {
 
-constexpr double kShortEdge = 1e-4;  // of the perimeter: the directions of shorter edges are rounding
-constexpr double kStraight = 2e-3;   // sine of a turn, about 0.1 degrees
+constexpr double kShallow = 0.01;  // dent, below which an outline is convex
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -21,32 +21,12 @@ bool has_area(const SliceLoop& loop) {
   return loop.perimeter > 0.0 && std::abs(loop.area) > 1e-9 * loop.perimeter * loop.perimeter;
 }
 
-// Without points that are all but on the one before.
-std::vector<glm::dvec2> spaced_points(const SliceLoop& loop) {
-  std::vector<glm::dvec2> points;
-  const double least = kShortEdge * loop.perimeter;
-  for (const glm::dvec2& point : loop.points) {
-    if (points.empty() || glm::distance(points.back(), point) > least) points.push_back(point);
-  }
-  while (points.size() > 1 && glm::distance(points.back(), points.front()) <= least) points.pop_back();
-  return points;
-}
-
-bool is_convex(std::span<const glm::dvec2> points, double area) {
-  const std::size_t count = points.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec2 before = points[(i + 1) % count] - points[i], after = points[(i + 2) % count] - points[(i + 1) % count];
-    const double turn = cross(before, after) / (glm::length(before) * glm::length(after));
-    if ((area > 0.0 ? turn : -turn) < -kStraight) return false;
-  }
-  return true;
-}
-
-// Of the convex hull (Andrew's monotone chain).
-double hull_area(std::vector<glm::dvec2> points) {
-  std::ranges::sort(points, [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+// Anticlockwise (Andrew's monotone chain).
+std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
+  std::ranges::sort(points,
+                    [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<glm::dvec2> hull;
-  for (const bool upper : {false, true}) {
+  for (int side = 0; side < 2; ++side) {
     const std::size_t first = hull.size();
     for (const glm::dvec2& point : points) {
       while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0) {
@@ -55,11 +35,24 @@ double hull_area(std::vector<glm::dvec2> points) {
       hull.push_back(point);
     }
     hull.pop_back();
-    if (!upper) std::ranges::reverse(points);
+    std::ranges::reverse(points);
   }
-  double twice = 0.0;
-  for (std::size_t i = 0; i < hull.size(); ++i) twice += cross(hull[i] - hull[0], hull[(i + 1) % hull.size()] - hull[0]);
-  return 0.5 * twice;
+  return hull;
+}
+
+// How far the deepest of the points lies from the sides of their hull.
+double deepest_dent(std::span<const glm::dvec2> points) {
+  const std::vector<glm::dvec2> hull = convex_hull({points.begin(), points.end()});
+  double deepest = 0.0;
+  for (const glm::dvec2& point : points) {
+    double depth = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < hull.size() && depth > deepest; ++i) {
+      const glm::dvec2 side = hull[(i + 1) % hull.size()] - hull[i];
+      depth = std::min(depth, cross(side, point - hull[i]) / glm::length(side));
+    }
+    deepest = std::max(deepest, depth);
+  }
+  return deepest;
 }
 
 bool encloses(std::span<const glm::dvec2> points, const glm::dvec2& p) {
@@ -83,8 +76,8 @@ SliceShape measure_shape(const SliceLoop& loop) {
   const double area = std::abs(loop.area), perimeter = closed_perimeter(loop);
   shape.quotient = 4.0 * std::numbers::pi * area / (perimeter * perimeter);
   shape.normalised_perimeter = perimeter / std::sqrt(area);
-  shape.solidity = std::min(area / hull_area(loop.points), 1.0);
-  shape.convex = is_convex(spaced_points(loop), loop.area);
+  shape.dent = deepest_dent(loop.points) / std::sqrt(area);
+  shape.convex = shape.dent <= kShallow;
   shape.centroid_inside = encloses(loop.points, loop.centroid);
   return shape;
 }

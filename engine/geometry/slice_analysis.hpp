@@ -17,8 +17,8 @@ namespace fascicle {
 struct SliceShape {
   double quotient = 0.0;              // isoperimetric: 4 pi area / perimeter^2, 1 for a circle
   double normalised_perimeter = 0.0;  // perimeter / sqrt(area): of the same shape with an area of 1
-  double solidity = 0.0;              // area / its convex hull's
-  bool convex = false;                // no turn goes the other way; those below 0.1 degrees count as straight
+  double dent = 0.0;                  // the outline's deepest place below its convex hull / sqrt(area)
+  bool convex = false;                // no dent deeper than 0.01: every triangulated surface has shallow ones
   bool centroid_inside = false;
 };
 

@@ -22,5 +22,7 @@ void add_import_osim(CLI::App& program, Command& chosen);
 void add_fit(CLI::App& program, Command& chosen);
 // counts CHARACTER: sections and vertices at several levels of detail.
 void add_counts(CLI::App& program, Command& chosen);
+// slices CHARACTER|MESH...: the shapes of muscle meshes' cross sections.
+void add_slices(CLI::App& program, Command& chosen);
 
 }  // namespace fascicle::cook

@@ -57,7 +57,7 @@ TEST(SliceShape, ACircleIsTheBound) {
   EXPECT_NEAR(shape.quotient, 1.0, 1e-4);
   EXPECT_LE(shape.quotient, 1.0);
   EXPECT_NEAR(shape.normalised_perimeter, 2.0 * std::sqrt(std::numbers::pi), 1e-4);
-  EXPECT_NEAR(shape.solidity, 1.0, 1e-9);
+  EXPECT_NEAR(shape.dent, 0.0, 1e-9);
   EXPECT_TRUE(shape.convex);
   EXPECT_TRUE(shape.centroid_inside);
 }
@@ -75,7 +75,7 @@ TEST(SliceShape, ASquareAndAnEllipse) {
 TEST(SliceShape, ALetterCIsConcaveAndItsCentroidOutside) {
   const SliceShape shape = measure_shape(letter_c());
   EXPECT_NEAR(shape.quotient, 4.0 * std::numbers::pi * 7.0 / (16.0 * 16.0), 1e-12);
-  EXPECT_NEAR(shape.solidity, 7.0 / 9.0, 1e-12);
+  EXPECT_NEAR(shape.dent, 1.0 / std::sqrt(7.0), 1e-12);  // at the mouth's inner corners: 1 above the hull's foot
   EXPECT_FALSE(shape.convex);
   EXPECT_FALSE(shape.centroid_inside);  // at 18.5 / 14 from the left, half-way up
 }
@@ -84,18 +84,23 @@ TEST(SliceShape, TurningTheOtherWayChangesNothing) {
   for (const SliceLoop& loop : {ellipse(2, 1), letter_c()}) {
     const SliceShape one = measure_shape(loop), other = measure_shape(reversed(loop));
     EXPECT_NEAR(one.quotient, other.quotient, 1e-12);
-    EXPECT_NEAR(one.solidity, other.solidity, 1e-12);
+    EXPECT_NEAR(one.dent, other.dent, 1e-12);
     EXPECT_EQ(one.convex, other.convex);
     EXPECT_EQ(one.centroid_inside, other.centroid_inside);
   }
 }
 
-TEST(SliceShape, RoundingIsNoDent) {
-  // A square whose sides have points in them that are off by what floats are off by, and two points all but in one.
+TEST(SliceShape, ShallowDentsAreNone) {
+  // A unit square whose sides have points in them, off by what floats are off by; two points all but in one.
   const SliceShape shape = measure_shape(loop_of({{0, 0}, {0.5, 3e-8}, {1, 0}, {1, 1e-9}, {1, 1}, {0.4, 1}, {0, 1}}));
   EXPECT_TRUE(shape.convex);
-  const SliceShape dented = measure_shape(loop_of({{0, 0}, {0.5, 0.01}, {1, 0}, {1, 1}, {0, 1}}));
-  EXPECT_FALSE(dented.convex);
+  const auto dented = [](double depth) {
+    return measure_shape(loop_of({{0, 0}, {0.5, depth}, {1, 0}, {1, 1}, {0, 1}}));
+  };
+  EXPECT_NEAR(dented(0.03).dent, 0.03 / std::sqrt(0.985), 1e-12);
+  EXPECT_FALSE(dented(0.03).convex);
+  EXPECT_FALSE(dented(0.0101).convex);
+  EXPECT_TRUE(dented(0.0098).convex);
 }
 
 TEST(SliceShape, AChainCountsAsClosed) {
@@ -169,7 +174,8 @@ TEST(SliceAt, ABoxAndATorus) {
   EXPECT_EQ(summary.share_concave, 0.0);
   EXPECT_EQ(summary.share_several, 0.0);
 
-  const std::array<SliceStation, 2> flat = {SliceStation{0.5, {}}, SliceStation{0.9, {{0, 0, 9}, {1, 0, 0}, {0, 1, 0}}}};
+  const SlicePlane high{{0, 0, 9}, {1, 0, 0}, {0, 1, 0}};
+  const std::array<SliceStation, 2> flat = {SliceStation{0.5, {}}, SliceStation{0.9, high}};
   slices = slice_at(test::make_torus(2.0f, 0.5f, 100, 50), flat);
   ASSERT_EQ(slices[0].loops.size(), 2u);
   EXPECT_GT(slices[0].loops[0].loop.area, 0.0);

@@ -1,0 +1,127 @@
+// `fascicle-cook slices` as a program: exit statuses, messages and files.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/shapes.hpp"
+#include "tests/support/test_data.hpp"
+
+namespace fascicle::cook {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+class SlicesCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("slices_command_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  int run(const std::string& arguments) const {
+    const std::string command = "'" FASCICLE_COOK "' slices " + arguments + " >'" + file("out") + "' 2>'" +
+                                file("err") + "' </dev/null";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void write_obj(const std::string& name, const TriangleMesh& mesh) const {
+    std::ofstream stream(file(name));
+    for (const glm::vec3& p : mesh.positions) stream << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      stream << "f " << mesh.indices[i] + 1 << ' ' << mesh.indices[i + 1] + 1 << ' ' << mesh.indices[i + 2] + 1 << '\n';
+    }
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string out() const { return read(file("out")); }
+  std::string err() const { return read(file("err")); }
+
+  fs::path folder_;
+};
+
+TEST_F(SlicesCommand, WrongUsage) {
+  EXPECT_EQ(run(""), 2);
+  EXPECT_EQ(run("walker --at 1.5"), 2);
+  EXPECT_THAT(err(), HasSubstr("not in range"));
+  EXPECT_EQ(run("walker --at half"), 2);
+  EXPECT_EQ(run("walker --unit furlong"), 2);
+  EXPECT_THAT(err(), HasSubstr("furlong"));
+}
+
+TEST_F(SlicesCommand, WhatIsNotThere) {
+  EXPECT_EQ(run("wlaker"), 1);
+  EXPECT_THAT(err(), HasSubstr("did you mean 'walker'?"));
+  write_obj("thigh.obj", test::make_box({0, 0, 0}, {1, 1, 4}));
+  EXPECT_EQ(run("'" + file("tihgh.obj") + "'"), 1);
+  EXPECT_THAT(err(), HasSubstr("did you mean 'thigh.obj'?"));
+}
+
+TEST_F(SlicesCommand, MeshesThatCannotBeSliced) {
+  std::ofstream(file("empty.obj")) << "v 0 0 0\n";
+  write_obj("box.obj", test::make_box({0, 0, 0}, {1, 1, 4}));
+  // The other mesh is sliced all the same.
+  EXPECT_EQ(run("'" + file("empty.obj") + "' '" + file("box.obj") + "'"), 1);
+  EXPECT_THAT(err(), HasSubstr("empty"));
+  EXPECT_THAT(out(), HasSubstr("3 slices of 1 mesh"));
+}
+
+TEST_F(SlicesCommand, APlaneThatMissesIsAWarning) {
+  write_obj("box.obj", test::make_box({0, 0, 0}, {1, 1, 4}));
+  EXPECT_EQ(run("'" + file("box.obj") + "' --at 0.5 --at 0"), 0);
+  // Half-way there is a slice; at 0 the plane lies in the box's end, which counts as one side of it or the other.
+  EXPECT_THAT(out(), HasSubstr("of 1 mesh"));
+  write_obj("apart.obj", test::join(test::make_box({0, 0, 0}, {1, 1, 1}), test::make_box({0, 0, 9}, {1, 1, 10})));
+  EXPECT_EQ(run("'" + file("apart.obj") + "' --at 0.5"), 0);
+  EXPECT_THAT(err(), HasSubstr("the plane at 0.5 of the length misses the mesh"));
+  EXPECT_THAT(out(), HasSubstr("1 more plane missed"));
+}
+
+TEST_F(SlicesCommand, FilesThatCannotBeWritten) {
+  write_obj("box.obj", test::make_box({0, 0, 0}, {1, 1, 4}));
+  EXPECT_EQ(run("'" + file("box.obj") + "' --csv /dev/null/a.csv --svg /dev/null/a.svg"), 1);
+  EXPECT_THAT(err(), HasSubstr("a.csv"));
+  EXPECT_THAT(err(), HasSubstr("a.svg"));
+}
+
+TEST_F(SlicesCommand, ABoxInMillimetres) {
+  write_obj("box.obj", test::make_box({0, 0, 0}, {10, 20, 60}));
+  ASSERT_EQ(run("'" + file("box.obj") + "' --unit mm --at 0.5 --csv '" + file("a.csv") + "' --svg '" + file("a.svg") +
+                "'"),
+            0)
+      << err();
+  EXPECT_THAT(read(file("a.csv")), HasSubstr("\nbox,0.5,0,1,200,60,0.698132,"));
+  EXPECT_THAT(read(file("a.svg")), HasSubstr("Slices of box"));
+  EXPECT_EQ(err(), "");
+}
+
+TEST_F(SlicesCommand, TheWalker) {
+  ASSERT_EQ(run("walker"), 0) << err();
+  EXPECT_THAT(out(), HasSubstr("144 slices of 48 meshes\n"));
+}
+
+TEST_F(SlicesCommand, AnatomicalMeshes) {
+  FASCICLE_SKIP_WITHOUT_DATA("pbd/gluteus_maximus.vtk");
+  const std::string folder = (test::data_folder() / "pbd").string();
+  ASSERT_EQ(run("'" + folder + "/gluteus_maximus.vtk' '" + folder + "/iliacus.vtk' --unit mm"), 0) << err();
+  EXPECT_THAT(out(), HasSubstr("6 slices of 2 meshes\n"));
+  EXPECT_THAT(out(), HasSubstr("centroid outside        0 %"));
+}
+
+}  // namespace
+}  // namespace fascicle::cook

@@ -1,0 +1,240 @@
+#include "tools/fascicle_cook/slices_plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace fascicle::cook {
+namespace {
+
+constexpr double kCirclePerimeter = 3.5449077018110318;  // of a circle with an area of 1
+constexpr const char* kConvexColour = "#2a6fbb";
+constexpr const char* kConcaveColour = "#d9661f";
+
+// A rectangle of the picture (pixels, y down) and the values at its sides.
+struct Panel {
+  double left, top, width, height;
+  double x0, x1, y0, y1;
+
+  double x(double value) const { return left + (value - x0) / (x1 - x0) * width; }
+  double y(double value) const { return top + height - (value - y0) / (y1 - y0) * height; }
+};
+
+std::string escape(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return result;
+}
+
+class Svg {
+ public:
+  Svg(double width, double height) {
+    text_ = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n"
+        "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
+        width, height);
+  }
+
+  void text(double x, double y, int size, const char* anchor, const std::string& words, const char* colour = "#222222",
+            const char* more = "") {
+    text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>", x, y, size,
+                         anchor, colour, more);
+    text_ += escape(words) + "</text>\n";
+  }
+  void turned_text(double x, double y, int size, const std::string& words) {
+    text(x, y, size, "middle", words, "#222222", fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, y).c_str());
+  }
+  void line(double x0, double y0, double x1, double y1, const char* style) {
+    text_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x0, y0, x1, y1, style);
+  }
+  void box(double x, double y, double width, double height, const char* style) {
+    text_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", x, y, width,
+                         height, style);
+  }
+  void circle(double x, double y, double radius, const std::string& style) {
+    text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>\n", x, y, radius, style);
+  }
+  // Points closer than half a pixel to the one before are left out.
+  void path(std::span<const glm::dvec2> points, bool closed, const std::string& style) {
+    if (points.empty()) return;
+    text_ += "<path d=\"";
+    glm::dvec2 last = points[0];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i > 0 && i + 1 < points.size() && glm::distance(points[i], last) < 0.5) continue;
+      text_ += fmt::format("{}{:.1f} {:.1f}", i == 0 ? 'M' : 'L', points[i].x, points[i].y);
+      last = points[i];
+    }
+    text_ += fmt::format("{}\" {}/>\n", closed ? "Z" : "", style);
+  }
+  std::string finish() { return std::move(text_) + "</svg>\n"; }
+
+ private:
+  std::string text_;
+};
+
+constexpr const char* kAxis = "stroke=\"#444444\" stroke-width=\"1.2\"";
+constexpr const char* kGrid = "stroke=\"#e3e5e8\" stroke-width=\"1\"";
+
+void draw_frame(Svg& svg, const Panel& panel, double step_x, double step_y, const char* x_label, const char* y_label) {
+  const auto steps = [](double from, double to, double step, auto&& each) {
+    for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; i += 1.0) each(i * step);
+  };
+  const double bottom = panel.top + panel.height, right = panel.left + panel.width;
+  steps(panel.x0, panel.x1, step_x, [&](double value) {
+    svg.line(panel.x(value), panel.top, panel.x(value), bottom, kGrid);
+    svg.line(panel.x(value), bottom, panel.x(value), bottom + 5, kAxis);
+    svg.text(panel.x(value), bottom + 21, 13, "middle", fmt::format("{:.{}f}", value + 0.0, step_x < 1.0 ? 1 : 0));
+  });
+  steps(panel.y0, panel.y1, step_y, [&](double value) {
+    svg.line(panel.left, panel.y(value), right, panel.y(value), kGrid);
+    svg.line(panel.left - 5, panel.y(value), panel.left, panel.y(value), kAxis);
+    svg.text(panel.left - 9, panel.y(value) + 4.5, 13, "end", fmt::format("{:.1f}", value + 0.0));
+  });
+  svg.box(panel.left, panel.top, panel.width, panel.height, "fill=\"none\" stroke=\"#444444\" stroke-width=\"1.2\"");
+  svg.text(panel.left + 0.5 * panel.width, bottom + 45, 15, "middle", x_label);
+  svg.turned_text(panel.left - 46, panel.top + 0.5 * panel.height, 15, y_label);
+}
+
+// Those with a loop that has an area.
+std::vector<const SliceOutline*> outlines_of(std::span<const MeshSlice> slices) {
+  std::vector<const SliceOutline*> outlines;
+  for (const MeshSlice& slice : slices) {
+    if (!slice.loops.empty() && slice.loops[0].shape.quotient > 0.0) outlines.push_back(&slice.loops[0]);
+  }
+  return outlines;
+}
+
+const char* colour_of(const SliceOutline& outline) { return outline.shape.convex ? kConvexColour : kConcaveColour; }
+
+// Filled where the centroid lies inside, hollow where it does not.
+std::string dot_style(const char* colour, bool inside) {
+  return inside ? fmt::format("fill=\"{}\" fill-opacity=\"0.55\" stroke=\"{}\" stroke-width=\"0.8\"", colour, colour)
+                : fmt::format("fill=\"#ffffff\" stroke=\"{}\" stroke-width=\"2\"", colour);
+}
+
+void plot_quotients(Svg& svg, const Panel& panel, std::span<const SliceOutline* const> outlines) {
+  draw_frame(svg, panel, panel.x1 - panel.x0 > 8.0 ? 2.0 : 1.0, 0.2, "perimeter of the slice scaled to an area of 1",
+             "isoperimetric quotient q = 4\xCF\x80 A / P\xC2\xB2");
+  svg.line(panel.left, panel.y(0.5), panel.left + panel.width, panel.y(0.5),
+           "stroke=\"#777777\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"");
+
+  // No shape lies elsewhere: with the area fixed the perimeter decides the quotient.
+  std::vector<glm::dvec2> curve;
+  for (int i = 0; i <= 200; ++i) {
+    const double p = kCirclePerimeter + (panel.x1 - kCirclePerimeter) * i / 200.0;
+    curve.emplace_back(panel.x(p), panel.y(4.0 * std::numbers::pi / (p * p)));
+  }
+  svg.path(curve, false, "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.5\"");
+  for (const SliceOutline* outline : outlines) {
+    svg.circle(panel.x(outline->shape.normalised_perimeter), panel.y(outline->shape.quotient), 5.0,
+               dot_style(colour_of(*outline), outline->shape.centroid_inside));
+  }
+  struct Known {
+    const char* name;
+    double quotient;
+  };
+  for (const Known& known : {Known{"circle", 1.0}, Known{"hexagon", 0.9069}, Known{"square", 0.7854},
+                             Known{"rectangle 1 : 4", 0.5027}, Known{"rectangle 1 : 10", 0.2596}}) {
+    const double p = std::sqrt(4.0 * std::numbers::pi / known.quotient);
+    if (p > panel.x1) continue;
+    svg.circle(panel.x(p), panel.y(known.quotient), 2.2, "fill=\"#222222\"");
+    svg.line(panel.x(p) + 4, panel.y(known.quotient) - 3, panel.x(p) + 17, panel.y(known.quotient) - 9,
+             "stroke=\"#999999\" stroke-width=\"1\"");
+    svg.text(panel.x(p) + 20, panel.y(known.quotient) - 8, 12, "start", known.name, "#555555");
+  }
+}
+
+// How many slices have about that quotient: bars beside the panel of quotients, whose axis they share.
+void plot_counts(Svg& svg, const Panel& panel, std::span<const SliceOutline* const> outlines) {
+  constexpr std::size_t kBins = 20;
+  std::array<std::size_t, kBins> bins{};
+  for (const SliceOutline* outline : outlines) {
+    bins[std::min(static_cast<std::size_t>(outline->shape.quotient * kBins), kBins - 1)] += 1;
+  }
+  const std::size_t most = std::max<std::size_t>(*std::ranges::max_element(bins), 1);
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    if (bins[bin] == 0) continue;
+    const double length = (panel.width - 32.0) * static_cast<double>(bins[bin]) / static_cast<double>(most);
+    const double low = static_cast<double>(bin) / kBins, high = static_cast<double>(bin + 1) / kBins;
+    const double top = panel.y(high), bottom = panel.y(low);
+    svg.box(panel.left, top + 1, length, bottom - top - 2, "fill=\"#b9c1cc\"");
+    svg.text(panel.left + length + 5, 0.5 * (top + bottom) + 4, 12, "start", fmt::format("{}", bins[bin]), "#555555");
+  }
+  svg.line(panel.left, panel.top, panel.left, panel.top + panel.height, kAxis);
+  svg.text(panel.left + 0.5 * panel.width, panel.top + panel.height + 45, 15, "middle", "slices");
+}
+
+void plot_outlines(Svg& svg, const Panel& panel, std::span<const SliceOutline* const> outlines) {
+  draw_frame(svg, panel, 0.5, 0.5, "along the longer axis, in lengths of which the area is the square", "across it");
+  const double opacity = std::clamp(25.0 / static_cast<double>(std::max<std::size_t>(outlines.size(), 1)), 0.18, 0.8);
+  for (const SliceOutline* outline : outlines) {
+    std::vector<glm::dvec2> points = normalise_outline(outline->loop);
+    for (glm::dvec2& p : points) p = {panel.x(p.x), panel.y(p.y)};
+    svg.path(points, true,
+             fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.2\" stroke-opacity=\"{:.2f}\"",
+                         colour_of(*outline), opacity));
+  }
+  svg.circle(panel.x(0.0), panel.y(0.0), panel.x(1.0 / std::sqrt(std::numbers::pi)) - panel.x(0.0),
+             "fill=\"none\" stroke=\"#111111\" stroke-width=\"1.6\" stroke-dasharray=\"7 5\"");
+  svg.circle(panel.x(0.0), panel.y(0.0), 2.5, "fill=\"#111111\"");
+}
+
+}  // namespace
+
+std::string plot_slices(const std::string& title, std::span<const MeshSlice> slices) {
+  const std::vector<const SliceOutline*> outlines = outlines_of(slices);
+  double most_perimeter = 5.6, reach = 0.9;
+  std::size_t convex = 0, outside = 0;
+  for (const SliceOutline* outline : outlines) {
+    most_perimeter = std::max(most_perimeter, outline->shape.normalised_perimeter + 0.3);
+    for (const glm::dvec2& p : normalise_outline(outline->loop)) {
+      reach = std::max({reach, std::abs(p.x) + 0.05, std::abs(p.y) + 0.05});
+    }
+    convex += outline->shape.convex ? 1 : 0;
+    outside += outline->shape.centroid_inside ? 0 : 1;
+  }
+  const SliceSummary summary = summarise_slices(slices);
+
+  Svg svg(1320, 730);
+  svg.text(40, 42, 21, "start", title, "#111111", " font-weight=\"bold\"");
+  svg.text(40, 68, 14, "start",
+           fmt::format("{} slices; q: mean {:.2f}, median {:.2f}, above 0.5 in {:.0f} %; {:.0f} % concave; "
+                       "centroid outside in {:.0f} %",
+                       summary.slices, summary.mean_quotient, summary.median_quotient, 100.0 * summary.share_round,
+                       100.0 * summary.share_concave, 100.0 * summary.share_centroid_outside),
+           "#444444");
+
+  plot_quotients(svg, {90, 130, 450, 520, 3.0, std::min(most_perimeter, 30.0), 0.0, 1.05}, outlines);
+  plot_counts(svg, {556, 130, 110, 520, 0.0, 1.0, 0.0, 1.05}, outlines);
+  plot_outlines(svg, {760, 130, 520, 520, -reach, reach, -reach, reach}, outlines);
+
+  // Legends, over their panels.
+  double x = 90;
+  const auto dot = [&](const char* colour, bool inside, const std::string& words) {
+    svg.circle(x + 6, 108, 5.0, dot_style(colour, inside));
+    svg.text(x + 18, 113, 14, "start", words);
+    x += 46.0 + 7.6 * static_cast<double>(words.size());
+  };
+  dot(kConvexColour, true, fmt::format("convex ({})", convex));
+  dot(kConcaveColour, true, fmt::format("concave ({})", outlines.size() - convex));
+  dot(kConcaveColour, false, fmt::format("concave, centroid outside ({})", outside));
+  svg.line(760, 108, 790, 108, "stroke=\"#111111\" stroke-width=\"1.6\" stroke-dasharray=\"7 5\"");
+  svg.text(798, 113, 14, "start", "circle of the same area; the dot is every slice's centroid");
+  return svg.finish();
+}
+
+}  // namespace fascicle::cook
