@@ -17,6 +17,7 @@ namespace {
 
 constexpr float kSamePlace = 1.0e-5f;      // m
 constexpr double kSameTurn = 1.0e-4;       // vertices: a rounding
+constexpr double kMostVertices = 0.95;     // of all vertices: the rest may move further than the level's error
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kSmallestError = 1.0e-6f;  // m
 
@@ -298,8 +299,7 @@ double strip_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, doubl
 void morph_radii(const Level& fine, const Level& coarse, LevelMorph& morph) {
   const MorphedLines lines(fine, coarse);
   morph.radii = fine.asset.rest_radii;
-  double squares = 0.0;
-  std::size_t vertices = 0;
+  std::vector<float> moves;
   for (std::uint32_t m = 0; m < fine.asset.size(); ++m) {
     const MuscleLayout& layout = fine.asset.muscles[m];
     const std::uint32_t count = layout.section_vertices;
@@ -322,13 +322,15 @@ void morph_radii(const Level& fine, const Level& coarse, LevelMorph& morph) {
                                        : section_radius(coarse, m, place.section, turn);
         radii[i] = static_cast<float>(r);
         const double moved = glm::dot(centre + r * direction - fine.vertex(m, k, i), direction);
-        squares += moved * moved;
-        ++vertices;
+        moves.push_back(static_cast<float>(std::abs(moved)));
       }
       for (std::uint32_t i = count; i < layout.radius_stride; ++i) radii[i] = radii[i % count];
     }
   }
-  morph.error = static_cast<float>(std::sqrt(squares / static_cast<double>(std::max<std::size_t>(vertices, 1))));
+  if (moves.empty()) return;
+  const auto most = moves.begin() + static_cast<std::ptrdiff_t>(kMostVertices * static_cast<double>(moves.size() - 1));
+  std::nth_element(moves.begin(), most, moves.end());
+  morph.error = *most;
 }
 
 void find_extent(const MuscleAsset& asset, MuscleLevels& levels) {

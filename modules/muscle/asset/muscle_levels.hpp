@@ -36,7 +36,7 @@ struct LevelMorph {
   AlignedVector<float> radii;        // m; MuscleAsset::rest_radii
   // By muscle: vertex i comes to lie where, in numbers of this level, vertex i + shift of the coarser one's outline is.
   std::vector<std::uint32_t> shifts;
-  // m: the root of the mean square by which the rest shape's vertices move in or out.
+  // m: 95 % of the rest shape's vertices move in or out by no more. (The few that do are folds of one or two muscles.)
   float error = 0.0f;
   // m: this and all finer levels' errors. The morph is complete where that is as much as a viewer tolerates, and begins
   // at this by kMorphBand; bands of different levels do not overlap.

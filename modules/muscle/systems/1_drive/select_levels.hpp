@@ -30,7 +30,8 @@ struct LevelChoice {
 };
 
 // The level for muscles whose nearest surface is `metres_per_pixel` m a pixel large in the picture. Monotone and
-// continuous: a level ends in its full morph where the next begins with none. Numbers that are not finite choose the finest.
+// continuous: a level ends in its full morph where the next begins with none. Numbers that are not finite choose the
+// finest.
 LevelChoice choose_level(const MuscleLevels& levels, float metres_per_pixel, float tolerance);
 
 // Brings a musculature to a level and morph; what it carries over (twist, what is held or detached, measures) does so
