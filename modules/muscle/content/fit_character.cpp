@@ -137,10 +137,10 @@ class CharacterFitter {
       distances.push_back(*muscles_[i].max_distance);
       whose.push_back(i);
     }
-    const std::vector<LevelChoice> choices =
+    const std::vector<ChosenLevel> choices =
         choose_levels(bounded, distances, asset_.skeleton->rest_world, options_);
     for (std::size_t k = 0; k < whose.size(); ++k) {
-      const LevelChoice& choice = choices[k];
+      const ChosenLevel& choice = choices[k];
       set_levels(whose[k], choice.level);
       if (choice.kept) continue;
       Diagnostic warning;

@@ -33,16 +33,16 @@ std::vector<MuscleLevel> list_candidates() {
 // One input's search: candidate after candidate until one keeps the bound.
 struct Search {
   std::size_t candidate = 0;
-  std::vector<LevelChoice> tried;  // in order: those with fewer vertices first
-  LevelChoice choice;              // once done
+  std::vector<ChosenLevel> tried;  // in order: those with fewer vertices first
+  ChosenLevel choice;              // once done
   bool done = false;
 };
 
 // Where no level keeps the bound: more vertices than these do not help.
-LevelChoice choose_nearest(const std::vector<LevelChoice>& tried) {
+ChosenLevel choose_nearest(const std::vector<ChosenLevel>& tried) {
   float best = tried.front().distance;
-  for (const LevelChoice& one : tried) best = std::min(best, one.distance);
-  return *std::ranges::find_if(tried, [&](const LevelChoice& one) { return one.distance <= kAsGood * best; });
+  for (const ChosenLevel& one : tried) best = std::min(best, one.distance);
+  return *std::ranges::find_if(tried, [&](const ChosenLevel& one) { return one.distance <= kAsGood * best; });
 }
 
 class Chooser {
@@ -64,9 +64,9 @@ class Chooser {
     });
   }
 
-  std::vector<LevelChoice> run() {
+  std::vector<ChosenLevel> run() {
     while (std::ranges::any_of(groups_, [this](const Group& group) { return is_open(group); })) advance();
-    std::vector<LevelChoice> choices;
+    std::vector<ChosenLevel> choices;
     for (const Search& search : searches_) choices.push_back(search.choice);
     return choices;
   }
@@ -165,7 +165,7 @@ class Chooser {
 
 }  // namespace
 
-std::vector<LevelChoice> choose_levels(std::span<const FitInput> inputs, std::span<const float> max_distances,
+std::vector<ChosenLevel> choose_levels(std::span<const FitInput> inputs, std::span<const float> max_distances,
                                        std::span<const glm::mat4> rest_bones, const FitOptions& options) {
   return Chooser(inputs, max_distances, rest_bones, options).run();
 }

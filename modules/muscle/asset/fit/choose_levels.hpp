@@ -11,7 +11,7 @@
 
 namespace fascicle::muscle {
 
-struct LevelChoice {
+struct ChosenLevel {
   MuscleLevel level;
   float distance = 0.0f;  // m, the largest that it leaves, either way
   bool kept = false;      // false: no level stays within the bound
@@ -22,7 +22,7 @@ struct LevelChoice {
 // back, where heads of one mesh answer for the part of it that is theirs. Where no level keeps the bound (a mesh that
 // reaches beyond the attachments, say): the level with the fewest vertices that comes within 5 % of the best. Inputs without a mesh, or that cannot be
 // fitted, keep their description's level and count as kept.
-std::vector<LevelChoice> choose_levels(std::span<const FitInput> inputs, std::span<const float> max_distances,
+std::vector<ChosenLevel> choose_levels(std::span<const FitInput> inputs, std::span<const float> max_distances,
                                        std::span<const glm::mat4> rest_bones, const FitOptions& options = {});
 
 }  // namespace fascicle::muscle

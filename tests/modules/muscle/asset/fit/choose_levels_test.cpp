@@ -20,7 +20,7 @@ class ChooseLevels : public testing::Test {
     description.longitudinal_subdivision = 3;
   }
 
-  LevelChoice choose(float bound) {
+  ChosenLevel choose(float bound) {
     const FitInput input{.description = &description, .mesh = mesh, .areas = {}};
     return choose_levels({&input, 1}, {&bound, 1}, bones).front();
   }
@@ -46,7 +46,7 @@ TEST_F(ChooseLevels, NothingToChooseForNothing) { EXPECT_TRUE(choose_levels({}, 
 
 TEST_F(ChooseLevels, WithoutAMeshTheLevelStays) {
   mesh = nullptr;
-  const LevelChoice choice = choose(1e-3f);
+  const ChosenLevel choice = choose(1e-3f);
   EXPECT_EQ(choice.level, (MuscleLevel{14, 3}));
   EXPECT_TRUE(choice.kept);
 }
@@ -59,7 +59,7 @@ TEST_F(ChooseLevels, WhatCannotBeFittedKeepsItsLevel) {
 
 TEST_F(ChooseLevels, KeepsTheBound) {
   for (const float bound : {0.05f, 0.015f, 0.005f}) {
-    const LevelChoice choice = choose(bound);
+    const ChosenLevel choice = choose(bound);
     ASSERT_TRUE(choice.kept) << bound;
     EXPECT_LE(choice.distance, bound);
     EXPECT_NEAR(distance_at(choice.level), choice.distance, 1e-6);
@@ -91,7 +91,7 @@ TEST_F(ChooseLevels, ATighterBoundNeedsMore) {
 
 TEST_F(ChooseLevels, ABoundOutOfReachDoesNotCostEverything) {
   description.attachments[1].position.z = 0.1f;  // the mesh goes on for 15 cm
-  const LevelChoice choice = choose(1e-3f);
+  const ChosenLevel choice = choose(1e-3f);
   EXPECT_FALSE(choice.kept);
   EXPECT_GT(choice.distance, 0.1f);
   EXPECT_LT(choice.level.section_vertices << choice.level.longitudinal_subdivision, 36u << 5);
