@@ -1,7 +1,7 @@
 #include "tools/fascicle_cook/mesh_character.hpp"
 
 #include <array>
-#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,16 +11,26 @@
 #include "engine/geometry/clean_mesh.hpp"
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/principal_axes.hpp"
-#include "engine/geometry/ray_scene.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
 #include "modules/muscle/asset/fit/fit_muscles.hpp"
+#include "modules/muscle/asset/fit/section_slice.hpp"
 
 namespace fascicle::cook {
 namespace {
 
 using namespace fascicle::muscle;
 
-constexpr float kInset = 0.01f;  // of the line's length, at each end
+constexpr double kInset = 0.01;  // of the mesh's length, at each end
+
+// Deepest inside the mesh's largest slice at `along` the axis (m from the centre); nothing where there is no slice.
+std::optional<glm::vec3> find_end(const TriangleMesh& mesh, const PrincipalAxes& axes, double along) {
+  const glm::dvec3 origin = axes.centre + along * axes.axes[0];
+  const SectionFrame frame{.centre = origin, .tangent = axes.axes[0], .u = axes.axes[1], .v = axes.axes[2]};
+  const std::vector<SectionSlice> slices = slice_section(mesh, frame);
+  if (slices.empty()) return std::nullopt;
+  const glm::dvec2 deepest = deepest_point(slices.front());
+  return glm::vec3(origin + deepest.x * frame.u + deepest.y * frame.v);
+}
 
 }  // namespace
 
@@ -34,11 +44,11 @@ Result<std::shared_ptr<const CharacterAsset>> make_mesh_character(const std::str
 
   const TriangleMesh clean = clean_mesh(*mesh).mesh;
   const PrincipalAxes axes = principal_axes(clean);
-  const Line axis{glm::vec3(axes.centre), glm::vec3(axes.axes[0])};
-  LineExtremes found;
-  RayScene(RayDevice(), clean).cast(std::span(&axis, 1), std::span(&found, 1));
-  if (!std::isfinite(found.first_entry) || !std::isfinite(found.last_exit) || found.last_exit <= found.first_entry) {
-    return fault("the mesh's principal axis does not pass through it", "is it a closed muscle? give it an action line");
+  const double inset = kInset * (axes.ranges[0].y - axes.ranges[0].x);
+  const std::array ends{find_end(clean, axes, axes.ranges[0].x + inset), find_end(clean, axes, axes.ranges[0].y - inset)};
+  if (!ends[0] || !ends[1]) {
+    return fault("no plane square to the mesh's principal axis cuts it in a closed outline near its ends",
+                 "is it a closed muscle? give it an action line in a character file");
   }
 
   auto character = std::make_shared<CharacterAsset>();
@@ -55,10 +65,7 @@ Result<std::shared_ptr<const CharacterAsset>> make_mesh_character(const std::str
   description.volume = static_cast<float>(mesh_volume(clean));
   description.section_vertices = options.section_vertices;
   description.longitudinal_subdivision = options.longitudinal_subdivision;
-  const float inset = kInset * (found.last_exit - found.first_entry);
-  for (const float t : {found.first_entry + inset, found.last_exit - inset}) {
-    description.attachments.push_back({.bone = 0, .position = axis.origin + t * axis.direction});
-  }
+  for (const auto& end : ends) description.attachments.push_back({.bone = 0, .position = *end});
   description.where.file = reference;
   character->descriptions = {description};
 

@@ -17,9 +17,10 @@ struct MeshFitOptions {
   std::uint32_t supersampling = 3;              // CSS
 };
 
-// `reference` is a path as read_mesh takes it. The action line is the mesh's principal axis through its centre, from
-// where it enters the mesh first to where it leaves it last, each end moved inside by 1 % of that length. Errors: the
-// reader's; the axis misses the mesh; the fit's warnings.
+// `reference` is a path as read_mesh takes it. The action line runs straight along the mesh's principal axis, from 1 % of
+// the mesh's length inside one end to 1 % inside the other; there each end lies deepest inside the mesh's slice square
+// to the axis, so that a bent muscle has its ends inside, too. Errors: the reader's; a mesh without a slice; the fit's
+// warnings where it fails.
 Result<std::shared_ptr<const muscle::CharacterAsset>> make_mesh_character(const std::string& reference,
                                                                           const MeshFitOptions& options);
 
