@@ -83,7 +83,7 @@ class LineFitter {
   // Only a plane that some line crosses more than twice can cut the mesh in several loops that matter: a second loop
   // that no line met is thinner than the rays' spacing.
   std::vector<SectionSlice> slices_of(std::size_t k) {
-    if (!surface_.sound() || rays_.most_crossings[k] <= 2) return {};
+    if (!surface_.has_plain_slices() || rays_.most_crossings[k] <= 2) return {};
     std::vector<SectionSlice> slices = slice_section(surface_.mesh(), frames_[k]);
     fit_.sections[k].loops = static_cast<std::uint32_t>(slices.size());
     return slices;
@@ -208,7 +208,7 @@ class LineFitter {
     else slices = slice_section(surface_.mesh(), frames_[k]);
     if (!slices.empty()) {
       const glm::dvec2 deepest = deepest_point(nearest(slices));
-      if (surface_.sound() || surface_.contains(place(frames_[k], deepest))) return deepest;
+      if (surface_.has_plain_slices() || surface_.contains(place(frames_[k], deepest))) return deepest;
     }
     // No closed loop there, but the winding number may still say that some of the plane is inside.
     const std::vector<std::size_t> same(directions_.size() / 2, k);
@@ -230,7 +230,7 @@ class LineFitter {
     for (std::size_t k = 0; k < frames_.size(); ++k) lines[k] = section_line(frames_[k], kAnyDirection);
     std::vector<std::uint32_t> starts;
     std::vector<InsideInterval> intervals;
-    surface_.find_inside(lines, starts, intervals);
+    surface_.find_inside_mesh(lines, starts, intervals);
     for (std::size_t k = 0; k < frames_.size(); ++k) {
       SectionReport& section = fit_.sections[k];
       section.hits = static_cast<std::uint32_t>(std::ranges::count(rays_.hits_of(k), 1));

@@ -14,6 +14,7 @@
 #include "modules/muscle/asset/check_descriptions.hpp"
 #include "modules/muscle/asset/fit/check_mesh.hpp"
 #include "modules/muscle/asset/fit/fit_line.hpp"
+#include "modules/muscle/asset/fit/head_region.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -70,7 +71,7 @@ bool check_size(const FitInput& input, const TriangleMesh& mesh, double line_len
 }
 
 FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_bones, const RayDevice& device,
-                        const FitOptions& options) {
+                        const FitOptions& options, const HeadRegion* region) {
   FittedMuscle fitted;
   const MuscleDescription& description = *input.description;
   const std::vector<glm::dvec3> points = section_points(description, rest_bones);
@@ -82,7 +83,8 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
     return fitted;
   }
   if (!check_size(input, mesh, length_of(points), fitted)) return fitted;
-  const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), checked.sound);
+  const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), checked.sound,
+                           region);
   const glm::dmat3 origin_bone{
       glm::dmat4(rest_bones[static_cast<std::size_t>(description.attachments.front().bone)])};
   const LineFit fit = fit_line(surface, points, origin_bone, description.section_vertices, options);
@@ -108,17 +110,39 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   return fitted;
 }
 
+// Of inputs that share their mesh with another.
+std::vector<std::optional<HeadRegion>> find_regions(std::span<const FitInput> inputs, const std::vector<bool>& wanted,
+                                                    std::span<const glm::mat4> rest_bones) {
+  std::vector<std::optional<HeadRegion>> regions(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!wanted[i]) continue;
+    std::vector<std::vector<glm::dvec3>> lines;
+    std::size_t own = 0;
+    for (std::size_t j = 0; j < inputs.size(); ++j) {
+      if (!wanted[j] || inputs[j].mesh != inputs[i].mesh) continue;
+      if (i == j) own = lines.size();
+      lines.push_back(section_points(*inputs[j].description, rest_bones));
+    }
+    if (lines.size() > 1) regions[i].emplace(lines, own);
+  }
+  return regions;
+}
+
 }  // namespace
 
 std::vector<FittedMuscle> fit_muscles(std::span<const FitInput> inputs, std::span<const glm::mat4> rest_bones,
                                       const FitOptions& options) {
   std::vector<FittedMuscle> fitted(inputs.size());
   if (!check_rest_bones(rest_bones).ok()) return fitted;
+  std::vector<bool> wanted(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    wanted[i] = inputs[i].mesh != nullptr && can_be_built(*inputs[i].description, rest_bones);
+  }
+  const std::vector<std::optional<HeadRegion>> regions = find_regions(inputs, wanted, rest_bones);
   const RayDevice device;
   parallel::for_range(inputs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (inputs[i].mesh == nullptr || !can_be_built(*inputs[i].description, rest_bones)) continue;
-      fitted[i] = fit_muscle(inputs[i], rest_bones, device, options);
+      if (wanted[i]) fitted[i] = fit_muscle(inputs[i], rest_bones, device, options, regions[i] ? &*regions[i] : nullptr);
     }
   });
   return fitted;

@@ -9,6 +9,7 @@
 
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/winding_number.hpp"
+#include "modules/muscle/asset/fit/head_region.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -25,8 +26,8 @@ struct FitSurface::Winding {
   std::optional<WindingField> field;
 };
 
-FitSurface::FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound)
-    : mesh_(mesh), scene_(std::move(scene)), sound_(sound), winding_(std::make_unique<Winding>()) {
+FitSurface::FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound, const HeadRegion* region)
+    : mesh_(mesh), scene_(std::move(scene)), region_(region), sound_(sound), winding_(std::make_unique<Winding>()) {
   const Bounds bounds = mesh_bounds(mesh);
   middle_ = 0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper));
   reach_ = 0.51 * double{bounds.diagonal()};
@@ -35,6 +36,10 @@ FitSurface::FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound)
 FitSurface::~FitSurface() = default;
 
 bool FitSurface::contains(const glm::dvec3& point) const {
+  return winds_round(point) && (region_ == nullptr || region_->contains(point));
+}
+
+bool FitSurface::winds_round(const glm::dvec3& point) const {
   std::call_once(winding_->made, [&] { winding_->field.emplace(mesh_); });
   return winding_->field->inside(point);
 }
@@ -42,7 +47,7 @@ bool FitSurface::contains(const glm::dvec3& point) const {
 void FitSurface::append_by_winding(const Line& line, std::span<const LineCrossing> crossings,
                                    std::vector<InsideInterval>& intervals) const {
   const glm::dvec3 origin = line.origin, direction = line.direction;
-  const auto inside = [&](double t) { return contains(origin + t * direction); };
+  const auto inside = [&](double t) { return winds_round(origin + t * direction); };
   const double start = glm::dot(middle_ - origin, direction) - reach_, end = start + 2.0 * reach_;
   const std::size_t first = intervals.size();
   const auto add = [&](double from, double to) {
@@ -80,6 +85,22 @@ void FitSurface::append_by_winding(const Line& line, std::span<const LineCrossin
 
 void FitSurface::find_inside(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
                              std::vector<InsideInterval>& intervals) const {
+  find_inside_mesh(lines, starts, intervals);
+  if (region_ == nullptr) return;
+  std::vector<std::uint32_t> clipped_starts{0};
+  std::vector<InsideInterval> clipped;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t first = clipped.size();
+    clipped.insert(clipped.end(), intervals.begin() + starts[i], intervals.begin() + starts[i + 1]);
+    region_->clip(lines[i].origin, lines[i].direction, first, clipped);
+    clipped_starts.push_back(static_cast<std::uint32_t>(clipped.size()));
+  }
+  starts = std::move(clipped_starts);
+  intervals = std::move(clipped);
+}
+
+void FitSurface::find_inside_mesh(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
+                                  std::vector<InsideInterval>& intervals) const {
   std::vector<std::uint32_t> crossing_starts;
   std::vector<LineCrossing> all;
   scene_.cast_all(lines, crossing_starts, all);
@@ -107,7 +128,7 @@ void FitSurface::find_inside(std::span<const Line> lines, std::vector<std::uint3
   }
 }
 
-void FitSurface::cast_by_winding(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
+void FitSurface::cast_by_stretches(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
   std::vector<std::uint32_t> starts;
   std::vector<InsideInterval> intervals;
   find_inside(lines, starts, intervals);
@@ -121,17 +142,17 @@ void FitSurface::cast_by_winding(std::span<const Line> lines, std::span<LineExtr
 }
 
 void FitSurface::cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const {
-  if (sound_) {
+  if (sound_ && region_ == nullptr) {
     scene_.cast(lines, extremes);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       LineExtremes& found = extremes[i];
       // Seen from one side alone, the line no more than touches the mesh.
       if (std::isinf(found.first_entry) || std::isinf(found.last_exit)) found = {};
-      else if (found.backwards) cast_by_winding(lines.subspan(i, 1), extremes.subspan(i, 1));
+      else if (found.backwards) cast_by_stretches(lines.subspan(i, 1), extremes.subspan(i, 1));
     }
     return;
   }
-  cast_by_winding(lines, extremes);
+  cast_by_stretches(lines, extremes);
 }
 
 }  // namespace fascicle::muscle

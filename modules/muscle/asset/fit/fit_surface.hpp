@@ -22,14 +22,18 @@ struct InsideInterval {
   double from = 0.0, to = 0.0;
 };
 
+class HeadRegion;
+
 class FitSurface {
  public:
-  // Keeps a reference to the mesh. `sound`: closed, consistently turned, outward.
-  FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound);
+  // Keeps references to the mesh and the region. `sound`: closed, consistently turned, outward. With a region, inside
+  // is what lies in both.
+  FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound, const HeadRegion* region = nullptr);
   ~FitSurface();
 
   const TriangleMesh& mesh() const { return mesh_; }
-  bool sound() const { return sound_; }
+  // Closed loops of slices say what is inside.
+  bool has_plain_slices() const { return sound_ && region_ == nullptr; }
 
   // Where each line enters first and leaves last.
   void cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const;
@@ -38,14 +42,19 @@ class FitSurface {
   void find_inside(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
                    std::vector<InsideInterval>& intervals) const;
 
+  // The same of the mesh, whatever the region.
+  void find_inside_mesh(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
+                        std::vector<InsideInterval>& intervals) const;
+
   // Whether some line so far met parts of the mesh that overlap, or are inside out.
   bool met_overlaps() const { return met_overlaps_; }
 
-  // By winding number.
+  // By winding number, and in the region.
   bool contains(const glm::dvec3& point) const;
 
  private:
-  void cast_by_winding(std::span<const Line> lines, std::span<LineExtremes> extremes) const;
+  bool winds_round(const glm::dvec3& point) const;
+  void cast_by_stretches(std::span<const Line> lines, std::span<LineExtremes> extremes) const;
   // The stretches of one line by winding number, given where it crosses the mesh.
   void append_by_winding(const Line& line, std::span<const LineCrossing> crossings,
                          std::vector<InsideInterval>& intervals) const;
@@ -53,6 +62,7 @@ class FitSurface {
   struct Winding;
   const TriangleMesh& mesh_;
   RayScene scene_;
+  const HeadRegion* region_;
   bool sound_;
   mutable std::atomic<bool> met_overlaps_ = false;
   glm::dvec3 middle_;
