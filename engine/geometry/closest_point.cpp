@@ -15,8 +15,19 @@ namespace {
 
 double square(const glm::dvec3& v) { return glm::dot(v, v); }
 
-double square_distance(const glm::dvec3& point, const TriangleTree::Node& node) {
-  return square(glm::max(glm::max(glm::dvec3(node.lower) - point, point - glm::dvec3(node.upper)), 0.0));
+// A little less than the square of the point's distance to the node's box, so that rounding hides nothing; at most the
+// largest number.
+float square_distance(const glm::vec3& point, const TriangleTree::Node& node) {
+  const glm::vec3 away = glm::max(glm::max(node.lower - point, point - node.upper), 0.0f);
+  return std::min(0.99999f * glm::dot(away, away), std::numeric_limits<float>::max());
+}
+
+// Whether no point of the triangle's plane is nearer than the square root of `nearest`.
+bool lies_beyond(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                 double nearest) {
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double height = glm::dot(point - a, normal);
+  return height * height > 1.00001 * nearest * square(normal);
 }
 
 glm::dvec3 closest_on_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
@@ -76,28 +87,30 @@ ClosestPoint ClosestPoints::at(const glm::vec3& point) const {
 
   struct Waiting {
     std::uint32_t node;
-    double distance;
+    float distance;
   };
   std::array<Waiting, kTreeStackSize> stack;
   std::size_t waiting = 0;
-  stack[waiting++] = {0, square_distance(p, tree.nodes[0])};
+  stack[waiting++] = {0, square_distance(point, tree.nodes[0])};
   while (waiting > 0) {
     auto [index, distance] = stack[--waiting];
-    if (distance >= nearest) continue;
+    if (double{distance} >= nearest) continue;
     while (tree.nodes[index].count == 0) {
       std::uint32_t near = index + 1, far = tree.nodes[index].first;
-      double near_distance = square_distance(p, tree.nodes[near]), far_distance = square_distance(p, tree.nodes[far]);
+      float near_distance = square_distance(point, tree.nodes[near]);
+      float far_distance = square_distance(point, tree.nodes[far]);
       if (far_distance < near_distance) {
         std::swap(near, far);
         std::swap(near_distance, far_distance);
       }
-      if (far_distance < nearest) stack[waiting++] = {far, far_distance};
+      if (double{far_distance} < nearest) stack[waiting++] = {far, far_distance};
       index = near;
-      if (near_distance >= nearest) break;
+      if (double{near_distance} >= nearest) break;
     }
     const TriangleTree::Node& node = tree.nodes[index];
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
       const std::array<glm::vec3, 3>& corners = tree.triangles[t];
+      if (lies_beyond(p, corners[0], corners[1], corners[2], nearest)) continue;
       const glm::dvec3 found = closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
       const double here = square(found - p);
       if (here < nearest || (here == nearest && tree.numbers[t] < triangle)) {

@@ -26,7 +26,7 @@ struct TriangleTree {
   std::vector<std::uint32_t> numbers;               // their numbers in the mesh
 };
 
-inline constexpr std::uint32_t kTreeLeafSize = 8;
+inline constexpr std::uint32_t kTreeLeafSize = 4;
 inline constexpr std::size_t kTreeStackSize = 64;  // enough for 2^32 triangles
 
 // Leaves out triangles with a corner that is not finite. Indices must be in range.

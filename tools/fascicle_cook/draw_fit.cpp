@@ -244,14 +244,16 @@ class FitArtist {
 
   // The title, and what the colours mean.
   Image draw_head(int width) {
-    constexpr float kText = 2.0f * 18.0f, kLine = 2.0f * 30.0f, kLeft = 2.0f * 12.0f;  // pixels drawn
-    std::vector<Caption> captions = {{{kLeft, 0.25f * kLine}, picture_.title, 0xffffffffu, false}};
-    const float right = static_cast<float>(kOversampling * width) - kLeft;
-    glm::vec2 at(kLeft, 1.25f * kLine);
-    const auto add = [&](const std::string& text, const glm::vec4& colour) {
-      const float taken = overlay_.text_width(text, kText) + 2.2f * kText;
-      if (at.x > kLeft && at.x + taken > right) at = {kLeft, at.y + kLine};
-      captions.push_back({at, text, pack_colour(colour), true});
+    // Pixels drawn.
+    const float text = kOversampling * std::clamp(static_cast<float>(width) / 90.0f, 14.0f, 28.0f);
+    const float line = 1.7f * text, margin = 0.7f * text;
+    std::vector<Caption> captions = {{{margin, 0.25f * line}, picture_.title, 0xffffffffu, false}};
+    const float right = static_cast<float>(kOversampling * width) - margin;
+    glm::vec2 at(margin, 1.25f * line);
+    const auto add = [&](const std::string& words, const glm::vec4& colour) {
+      const float taken = overlay_.text_width(words, text) + 2.2f * text;
+      if (at.x > margin && at.x + taken > right) at = {margin, at.y + line};
+      captions.push_back({at, words, pack_colour(colour), true});
       at.x += taken;
     };
     for (std::size_t paint = 0; paint < kPaints; ++paint) {
@@ -260,9 +262,9 @@ class FitArtist {
     add("anatomical mesh", {0.62f, 0.68f, 0.76f, 0.6f});
     DrawView empty;
     empty.strips = empty.skins = empty.lines = empty.ground = empty.shadow = false;
-    renderer_.resize(kOversampling * width, kOversampling * static_cast<int>((at.y + 1.15f * kLine) / kOversampling));
+    renderer_.resize(kOversampling * width, kOversampling * static_cast<int>((at.y + line) / kOversampling));
     renderer_.draw(empty);
-    overlay_.draw_captions(captions, kText, renderer_);
+    overlay_.draw_captions(captions, text, renderer_);
     return shrink(renderer_.read_image(), kOversampling);
   }
 
