@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include <glm/mat4x4.hpp>
@@ -133,6 +135,16 @@ class Numbers {
  private:
   std::uint32_t state_;
 };
+
+// As the text of an .obj file.
+inline std::string as_obj(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  for (const glm::vec3& p : mesh.positions) text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    text << "f " << mesh.indices[i] + 1 << ' ' << mesh.indices[i + 1] + 1 << ' ' << mesh.indices[i + 2] + 1 << '\n';
+  }
+  return text.str();
+}
 
 // Triangles anywhere in a cube from -1 to 1 that share vertices at random: no surface at all.
 inline TriangleMesh make_soup(std::uint32_t triangles, std::uint32_t seed) {
