@@ -58,7 +58,7 @@ inline void coarsen(std::vector<muscle::MuscleDescription>& descriptions) {
 }
 
 // `count` levels from `finest` on.
-inline std::shared_ptr<const muscle::MuscleLevels> synthetic_levels(muscle::MuscleLevel finest = {36, 2},
+inline std::shared_ptr<const muscle::MuscleLevels> synthetic_levels(muscle::MuscleLevel finest = {36, 3},
                                                                     std::size_t count = 3, float noise = 0.0f) {
   auto descriptions = synthetic_muscles(finest.section_vertices, finest.longitudinal_subdivision);
   std::vector<std::shared_ptr<const muscle::MuscleAsset>> assets;

@@ -217,6 +217,7 @@ struct MorphedLines {
           frame.tangent[i] = static_cast<float>(t[i]);
           frame.reference[i] = static_cast<float>(u[i]);
         }
+        frame.fixed = coarse.asset.ends[std::size_t{2} * coarse.asset.muscles[m].lane_index + end].fixed;
         ends[std::size_t{2} * layout.lane_index + end] = turn_end(frame, shifted_turns(fine, coarse, m));
       }
     }
@@ -367,7 +368,7 @@ void find_extent(const MuscleAsset& asset, MuscleLevels& levels) {
 MuscleLevel coarser_level(MuscleLevel level) {
   const std::uint32_t half = level.section_vertices / 2;
   if (level.section_vertices % 2 == 0 && half % 2 == 0 && half >= 6) level.section_vertices = half;
-  if (level.longitudinal_subdivision > 0) --level.longitudinal_subdivision;
+  if (level.longitudinal_subdivision > 1) --level.longitudinal_subdivision;
   return level;
 }
 

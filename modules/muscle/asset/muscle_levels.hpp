@@ -25,8 +25,8 @@ struct MuscleLevel {
   friend bool operator==(const MuscleLevel&, const MuscleLevel&) = default;
 };
 
-// The next coarser level of a muscle: |C| / 2 where that is even and at least 6, LSS - 1 where LSS > 0. The same level
-// where there is none.
+// The next coarser level of a muscle: |C| / 2 where that is even and at least 6, LSS - 1 where LSS > 1, because a belly
+// without a section between its attachments is none. The same level where there is none.
 MuscleLevel coarser_level(MuscleLevel level);
 
 // What a level becomes, in the order of its own asset's arrays.

@@ -1,4 +1,4 @@
-// Sizes a musculature's arrays for an asset and sets them to its rest shape. What is not an array (counts, flags) stays.
+// Sizes a musculature's arrays for an asset and sets them to its rest shape. What is no array (counts, flags) stays.
 // Allocates nothing where the arrays have had room before, so that a level of detail can change within a frame.
 #pragma once
 

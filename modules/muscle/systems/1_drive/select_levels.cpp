@@ -35,6 +35,7 @@ void mix(std::span<const float> from, std::span<const float> to, float s, std::s
 void mix(std::span<const EndFrame> from, std::span<const EndFrame> to, float s, std::span<EndFrame> result) {
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i].bone = from[i].bone;
+    result[i].fixed = from[i].fixed;
     mix(from[i].tangent, to[i].tangent, s, result[i].tangent);
     mix(from[i].reference, to[i].reference, s, result[i].reference);
   }

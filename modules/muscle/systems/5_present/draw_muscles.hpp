@@ -50,8 +50,8 @@ StripTopology make_strip_topology(const MuscleAsset& asset);
 std::vector<std::uint32_t> make_action_line_indices(const MuscleAsset& asset);
 std::uint32_t action_line_vertex_count(const MuscleAsset& asset);
 
-// Copies vertices, rows and action lines into the renderer. Belly and tendon colours are the items' own. Where the level
-// of detail changes in the next step, its surface is written too, as what that step is interpolated from.
+// Copies vertices, rows and action lines into the renderer. Belly and tendon colours are the items' own. Where the
+// level of detail changes in the next step, its surface is written too, as what that step is interpolated from.
 void upload_muscles(
     ecs::View<const Musculature, const MuscleSurfaces, const ActionLines, const Tendons, DrawnMuscles> musculatures,
     ecs::View<const MuscleDetail> details, ecs::View<const BoneMatrices> characters,

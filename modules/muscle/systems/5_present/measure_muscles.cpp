@@ -1,7 +1,9 @@
 #include "modules/muscle/systems/5_present/measure_muscles.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/ecs/each_in_parallel.hpp"
@@ -9,6 +11,8 @@
 
 namespace fascicle::muscle {
 namespace {
+
+constexpr float kSmallestVolume = 1.0e-12f;  // m^3
 
 // Along the attachments alone.
 float measure_length(const MuscleLayout& layout, const ActionLines& lines) {
@@ -52,10 +56,25 @@ void clear(std::uint32_t muscle, MuscleMeasures& measures) {
   measures.tendon_point[muscle] = glm::vec3(0.0f);
 }
 
+// The finest level's volume at rest by the present one's. On its way between two, radii are: the volume's root.
+float volume_scale(const MuscleDetail& detail, float morph, std::uint32_t muscle) {
+  const std::vector<std::shared_ptr<const MuscleAsset>>& assets = detail.levels->assets;
+  const auto volume = [&](std::uint32_t level) { return assets[level]->muscles[muscle].rest_volume; };
+  if (detail.level == 0 && morph == 0.0f) return 1.0f;
+  float here = volume(detail.level);
+  if (morph > 0.0f) {
+    const float next = volume(detail.level + 1);
+    const float root = glm::mix(std::sqrt(std::max(here, 0.0f)), std::sqrt(std::max(next, 0.0f)), morph);
+    here = root * root;
+  }
+  return here > kSmallestVolume ? volume(0) / here : 1.0f;
+}
+
 }  // namespace
 
 void measure_muscle(const Musculature& musculature, const ActionLines& lines, const CrossSections& sections,
-                    const Tendons& tendons, const MtuKernels& kernels, std::uint32_t muscle, MuscleMeasures& measures) {
+                    const Tendons& tendons, const MtuKernels& kernels, std::uint32_t muscle, MuscleMeasures& measures,
+                    float volume_scale) {
   if (musculature.attached[muscle] == 0) {
     clear(muscle, measures);
     return;
@@ -64,21 +83,25 @@ void measure_muscle(const Musculature& musculature, const ActionLines& lines, co
   job.sections = single_muscle(sections_view(musculature, lines, sections, tendons), muscle);
   job.volumes = measures.volume.data() + muscle;
   kernels.measure_volume(job);
+  measures.volume[muscle] *= volume_scale;
   measure_line(*musculature.asset, lines, sections, tendons, muscle, measures);
   measure_strength(musculature.asset->muscles[muscle], muscle, measures);
 }
 
 void measure_muscles(
     ecs::View<const Musculature, const ActionLines, const CrossSections, const Tendons, MuscleMeasures> musculatures,
-    ecs::Resource<const MuscleSettings> settings, ecs::Resource<const CostLedger> ledger) {
+    ecs::View<const MuscleDetail> details, ecs::Resource<const MuscleSettings> settings,
+    ecs::Resource<const CostLedger> ledger) {
   const MtuKernels& kernels = mtu_kernels(settings->simd);
   const SystemCosts costs = ledger->system("measure_muscles");
   const auto measure = [&](ecs::Entity entity, const Musculature& musculature, const ActionLines& lines,
                            const CrossSections& sections, const Tendons& tendons, MuscleMeasures& measures) {
     const CostRow row = costs.row(entity);
+    const MuscleDetail* detail = details.try_get<const MuscleDetail>(entity);
     for (std::uint32_t muscle = 0; muscle < musculature.asset->size(); ++muscle) {
       const ScopedCost cost(row, muscle);
-      measure_muscle(musculature, lines, sections, tendons, kernels, muscle, measures);
+      const float scale = detail == nullptr ? 1.0f : volume_scale(*detail, musculature.morph, muscle);
+      measure_muscle(musculature, lines, sections, tendons, kernels, muscle, measures, scale);
     }
   };
   ecs::each_in_parallel(musculatures, kMusculaturesPerChunk, measure);

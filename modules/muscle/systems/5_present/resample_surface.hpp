@@ -13,8 +13,8 @@ namespace fascicle::muscle {
 struct MuscleLevels;
 
 // Writes `surfaces` of level `from` (where it draws the same as the other) by the layout of level `to`, which is the
-// next coarser or finer one; `vertices` and `rows` are that asset's, written in order and never read. Vertices that both
-// levels have are copied, those that the finer one has alone lie in the middle of two or four of the coarser's.
+// next coarser or finer one; `vertices` and `rows` are that asset's, written in order and never read. Vertices that
+// both levels have are copied, those that the finer one has alone lie in the middle of two or four of the coarser's.
 void resample_surface(const MuscleLevels& levels, std::uint32_t from, const Tendons& tendons,
                       const MuscleSurfaces& surfaces, std::uint32_t to, std::span<SurfaceVertex> vertices,
                       std::span<SurfaceRow> rows);

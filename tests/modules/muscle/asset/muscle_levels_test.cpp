@@ -85,8 +85,8 @@ TEST(MuscleLevels, AllMismatchesAreToldAtOnce) {
 
 TEST(CoarserLevel, HalvesWhatStaysEvenAndSix) {
   EXPECT_EQ(coarser_level({36, 2}), (MuscleLevel{18, 1}));
-  EXPECT_EQ(coarser_level({24, 1}), (MuscleLevel{12, 0}));
-  EXPECT_EQ(coarser_level({18, 0}), (MuscleLevel{18, 0}));  // 9 is odd
+  EXPECT_EQ(coarser_level({24, 1}), (MuscleLevel{12, 1}));  // a belly needs a section
+  EXPECT_EQ(coarser_level({18, 1}), (MuscleLevel{18, 1}));  // 9 is odd
   EXPECT_EQ(coarser_level({12, 0}), (MuscleLevel{6, 0}));
   EXPECT_EQ(coarser_level({10, 3}), (MuscleLevel{10, 2}));
   EXPECT_EQ(coarser_level({8, 0}), (MuscleLevel{8, 0}));    // 4 is less than six
@@ -169,7 +169,7 @@ TEST(MuscleLevels, AStraightMuscleMorphsOntoTheCoarserSurface) {
 
 TEST(MuscleLevels, ErrorsAddUpAndBandsDoNotOverlap) {
   for (const float noise : {0.0f, 0.1f}) {
-    const auto levels = test::synthetic_levels({36, 2}, 3, noise);
+    const auto levels = test::synthetic_levels({36, 3}, 3, noise);
     EXPECT_GT(levels->morphs[0].error, 0.0f);
     EXPECT_FLOAT_EQ(levels->morphs[0].complete, levels->morphs[0].error);
     EXPECT_GE(levels->morphs[1].complete, levels->morphs[0].error + levels->morphs[1].error - 1.0e-7f);

@@ -72,7 +72,7 @@ TEST(ResampleSurface, StraightMusclesComeOutAsTheyAre) {
 
 // Lobed sections on bent lines: vertices on chords are not in their middle, but not far from it.
 TEST(ResampleSurface, FittedMusclesComeOutNearly) {
-  const auto levels = test::synthetic_levels({36, 2}, 3);
+  const auto levels = test::synthetic_levels({36, 3}, 3);
   expect_same(levels, test::rest_bones(), 5.0e-3f);
 }
 

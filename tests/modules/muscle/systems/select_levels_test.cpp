@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/ecs/world.hpp"
+#include "engine/math/state_hash.hpp"
 #include "tests/modules/muscle/systems/muscle_world.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/synthetic_levels.hpp"
@@ -85,7 +86,7 @@ TEST(ChooseLevel, IsMonotoneAndContinuous) {
 TEST(SelectLevels, NobodyLookingOrOneLevelChangesNothing) {
   const auto levels = test::synthetic_levels();
   MuscleWorld plain;
-  LeveledWorld unwatched(levels), single(test::synthetic_levels({36, 2}, 1));
+  LeveledWorld unwatched(levels), single(test::synthetic_levels({36, 3}, 1));
   const std::vector<glm::mat4> rest = test::rest_bones();
   const ecs::Entity characters[] = {plain.add_character(rest), unwatched.add_character(rest),
                                     single.add_character(rest)};
@@ -106,6 +107,15 @@ TEST(SelectLevels, NobodyLookingOrOneLevelChangesNothing) {
   }
 }
 
+// What is drawn, and the twist.
+std::uint64_t bits_of(const ecs::World& world, ecs::Entity muscles) {
+  StateHash hash;
+  hash.add(std::span<const SurfaceVertex>(world.get<MuscleSurfaces>(muscles).vertices));
+  hash.add(std::span<const SurfaceRow>(world.get<MuscleSurfaces>(muscles).rows));
+  hash.add(std::span<const float>(world.get<CrossSections>(muscles).twist));
+  return hash.value();
+}
+
 // A level comes back the way it went, and each is the same as that level's asset by itself.
 TEST(SelectLevels, ALevelIsTheSameAsItsAssetAlone) {
   const auto levels = test::synthetic_levels();
@@ -120,9 +130,10 @@ TEST(SelectLevels, ALevelIsTheSameAsItsAssetAlone) {
     ASSERT_EQ(w.detail(muscles).level, level) << distance;
     ASSERT_EQ(w.morph(muscles), 0.0f);
     MuscleWorld alone;
-    spawn_musculature(alone.world, alone.add_character(test::walk_bones(0.3f)), levels->assets[level]);
+    const ecs::Entity other =
+        spawn_musculature(alone.world, alone.add_character(test::walk_bones(0.3f)), levels->assets[level]);
     alone.step();
-    EXPECT_EQ(hash_state(w.world), hash_state(alone.world)) << level;
+    EXPECT_EQ(bits_of(w.world, muscles), bits_of(alone.world, other)) << level;
   }
   EXPECT_EQ(w.detail(muscles).switches, 5u);
   // And for a fixed level, or one beyond the coarsest.
@@ -266,6 +277,29 @@ TEST(SelectLevels, DetachedMusclesStayDetachedAndMeasuresGoOn) {
       }
     }
     for (const SurfaceRow& row : view.rows) EXPECT_EQ(row.muscle, 7u);
+  }
+}
+
+// Nor does a muscle get weaker as its surface loses volume.
+TEST(SelectLevels, VolumeIsThatOfTheFinestLevel) {
+  const auto levels = test::synthetic_levels();
+  const MuscleAsset& finest = *levels->assets.front();
+  EXPECT_LT(levels->assets[2]->muscles[3].rest_volume, 0.9f * finest.muscles[3].rest_volume);
+  LeveledWorld w(levels);
+  const ecs::Entity muscles = w.spawn(w.add_character(test::rest_bones()));
+  for (const std::uint32_t level : {0u, 1u, 2u}) {
+    for (const float way : {0.0f, 0.5f}) {
+      if (level == 2 && way > 0.0f) continue;
+      w.look_from(level == 2 ? 1.0e4f : distance_of(*levels, level, way == 0.0f ? (level == 0 ? -0.1f : 0.0f) : way));
+      w.settle();
+      ASSERT_EQ(w.detail(muscles).level, level);
+      const MuscleMeasures& measures = w.world.get<MuscleMeasures>(muscles);
+      for (std::uint32_t m = 0; m < 48; ++m) {
+        const float expected = finest.muscles[m].rest_volume;
+        ASSERT_NEAR(measures.volume[m], expected, (way > 0.0f ? 0.02f : 1.0e-4f) * expected) << level << " " << m;
+        ASSERT_FLOAT_EQ(measures.mass[m], measures.volume[m] * kMuscleDensity);
+      }
+    }
   }
 }
 
