@@ -139,19 +139,18 @@ bool MeshDefects::sound() const {
 std::string MeshDefects::to_text() const {
   if (sound()) return {};
   std::string text;
-  const auto add = [&](std::size_t count, const char* one, const char* several, const char* after = "") {
+  const auto add = [&](std::size_t count, const char* one, const char* several, const std::string& after = {},
+                       const char* before = "") {
     if (count == 0) return;
     if (!text.empty()) text += ", ";
-    text += fmt::format("{} {}{}", count, count == 1 ? one : several, after);
+    text += fmt::format("{}{} {}{}", before, count, count == 1 ? one : several, after);
   };
   if (components == 0) text = "no triangle with an area";
-  add(open_edges, "open edge", "open edges", fmt::format(" round {} hole{}", holes, holes == 1 ? "" : "s").c_str());
+  add(open_edges, "open edge", "open edges", fmt::format(" round {} hole{}", holes, holes == 1 ? "" : "s"));
   add(crowded_edges, "edge", "edges", " with more than two triangles");
   add(twisted_edges, "edge", "edges", " where the surface has only one side");
-  if (more_self_intersections) text += text.empty() ? "at least " : ", at least ";
-  const std::size_t begun = text.size();
-  add(self_intersections, "pair of triangles that crosses", "pairs of triangles that cross", " each other");
-  if (more_self_intersections && text.compare(begun, 2, ", ") == 0) text.erase(begun, 2);
+  add(self_intersections, "pair of triangles that crosses", "pairs of triangles that cross", " each other",
+      more_self_intersections ? "at least " : "");
   if (inverted) text += text.empty() ? "inside out (turned round)" : ", inside out (turned round)";
   add(flipped_triangles, "flipped triangle", "flipped triangles", inverted ? " (kept)" : " (turned round)");
   add(non_finite_vertices, "vertex", "vertices", " without finite coordinates (left out)");

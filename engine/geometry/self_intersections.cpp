@@ -15,9 +15,12 @@
 namespace fascicle {
 namespace {
 
-constexpr std::size_t kLeaf = 4;                   // triangles
-constexpr std::size_t kRound = 4096;               // triangles between looks at what was found
-constexpr std::size_t kMaxVisits = 1'000'000'000;  // of boxes: about ten seconds
+constexpr std::size_t kLeaf = 4;       // triangles
+constexpr std::size_t kTestCost = 16;  // of two triangles, in looks at a box
+// The search ends beyond these: usual meshes take about 250 a triangle, a thousand million about ten seconds.
+constexpr std::size_t kMaxCost = 500'000'000, kMaxCostPerTriangle = 500, kMaxQueryCost = 1'000'000;
+// Triangles between looks at what was found: few where each meets very many others.
+constexpr std::size_t kRound = 16384, kShortRound = 256, kHighCost = 10000;
 
 struct Box {
   glm::vec3 lower{std::numeric_limits<float>::infinity()}, upper{-std::numeric_limits<float>::infinity()};
@@ -41,7 +44,7 @@ std::uint64_t spread_bits(std::uint64_t value) {
 }
 
 struct Found {
-  std::size_t pairs = 0, visits = 0;
+  std::size_t pairs = 0, cost = 0;
 };
 
 // Triangles along a space-filling curve, and a complete binary tree of boxes over them.
@@ -100,8 +103,8 @@ class TriangleTree {
   // `width` leaves from `first_leaf` on are under the node.
   void visit(std::size_t t, std::size_t node, std::size_t first_leaf, std::size_t width, std::size_t limit,
              Found& found) const {
-    if ((first_leaf + width) * kLeaf <= t + 1 || found.pairs >= limit) return;
-    ++found.visits;
+    if ((first_leaf + width) * kLeaf <= t + 1 || found.pairs >= limit || found.cost >= kMaxQueryCost) return;
+    ++found.cost;
     if (!nodes_[node].meets(boxes_[t])) return;
     if (node < leaf_count_) {
       visit(t, 2 * node, first_leaf, width / 2, limit, found);
@@ -111,7 +114,7 @@ class TriangleTree {
     const std::size_t end = std::min((first_leaf + 1) * kLeaf, triangles_.size());
     for (std::size_t other = std::max(first_leaf * kLeaf, t + 1); other < end && found.pairs < limit; ++other) {
       if (!boxes_[other].meets(boxes_[t])) continue;
-      ++found.visits;
+      found.cost += kTestCost;
       found.pairs += triangles_cross(positions_, triangles_[t], triangles_[other]);
     }
   }
@@ -131,18 +134,21 @@ SelfIntersections find_self_intersections(std::span<const glm::vec3> positions, 
   if (indices.size() < 6) return all;
   const TriangleTree tree(positions, indices);
   std::vector<Found> found(std::min(kRound, tree.size()));
-  std::size_t visits = 0;
-  for (std::size_t first = 0; first < tree.size(); first += kRound) {
-    const std::size_t count = std::min(kRound, tree.size() - first);
-    parallel::for_range(count, 64, [&](std::size_t begin, std::size_t end) {
+  const std::size_t max_cost = kMaxCost + kMaxCostPerTriangle * tree.size();
+  std::size_t cost = 0;
+  for (std::size_t first = 0, count = 0; first < tree.size(); first += count) {
+    const bool costly = first == 0 || cost / first > kHighCost;
+    count = std::min(costly ? kShortRound : kRound, tree.size() - first);
+    parallel::for_range(count, 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) found[i] = tree.find(first + i, max_pairs);
     });
     for (std::size_t i = 0; i < count; ++i) {
       all.pairs += found[i].pairs;
-      visits += found[i].visits;
+      cost += found[i].cost;
+      all.more |= found[i].cost >= kMaxQueryCost;
     }
-    if (all.pairs < max_pairs && visits < kMaxVisits) continue;
-    all.more = all.pairs >= max_pairs || first + count < tree.size();
+    if (all.pairs < max_pairs && cost < max_cost) continue;
+    all.more |= all.pairs >= max_pairs || first + count < tree.size();
     break;
   }
   all.pairs = std::min(all.pairs, max_pairs);
