@@ -10,7 +10,6 @@ namespace fascicle::muscle {
 namespace {
 
 constexpr double kSamples = 2000.0;
-constexpr double kWall = 0.003;  // of the mesh's diagonal
 
 double spacing_for(double area, double spacing) { return spacing > 0.0 ? spacing : std::sqrt(area / kSamples); }
 
@@ -98,7 +97,6 @@ std::vector<FitComparison> compare_heads(const MuscleAsset& asset, std::span<con
   if (heads.size() == 1) return {compare_fit(asset, heads[0], oracle, spacing)};
   struct Head {
     TriangleMesh mesh;
-    ClosestPoints surface;
     WindingField winding;
     std::uint32_t first_triangle;  // in the heads' joined mesh
   };
@@ -106,13 +104,12 @@ std::vector<FitComparison> compare_heads(const MuscleAsset& asset, std::span<con
   TriangleMesh joined;
   for (const std::uint32_t muscle : heads) {
     TriangleMesh mesh = rest_surface(asset, muscle);
-    ClosestPoints surface(mesh);
     WindingField winding(mesh);
     const auto first_vertex = static_cast<std::uint32_t>(joined.positions.size());
     const auto first_triangle = static_cast<std::uint32_t>(joined.indices.size() / 3);
     joined.positions.insert(joined.positions.end(), mesh.positions.begin(), mesh.positions.end());
     for (const std::uint32_t index : mesh.indices) joined.indices.push_back(first_vertex + index);
-    parts.push_back({std::move(mesh), std::move(surface), std::move(winding), first_triangle});
+    parts.push_back({std::move(mesh), std::move(winding), first_triangle});
   }
   const ClosestPoints all(joined);
 
@@ -122,15 +119,9 @@ std::vector<FitComparison> compare_heads(const MuscleAsset& asset, std::span<con
     FitComparison result = count_sections(asset, heads[h], oracle);
     result.fit_vertices = static_cast<std::uint32_t>(head.mesh.positions.size());
     result.fit_volume = mesh_volume(head.mesh);
-    const double wall = kWall * oracle.diagonal;
     const auto bounds_union = [&](const glm::vec3& p) {
       for (std::size_t other = 0; other < parts.size(); ++other) {
-        if (other == h) continue;
-        if (parts[other].winding.inside(p)) return false;
-        if (double{parts[other].surface.at(p).distance} < wall && double{oracle.surface.at(p).distance} > wall &&
-            oracle.winding.inside(p)) {
-          return false;
-        }
+        if (other != h && parts[other].winding.inside(p)) return false;
       }
       return true;
     };
@@ -141,7 +132,7 @@ std::vector<FitComparison> compare_heads(const MuscleAsset& asset, std::span<con
       const std::uint32_t triangle = all.at(p).triangle;
       return triangle >= head.first_triangle && triangle < end;
     };
-    result.mesh_to_fit = measure_distance(oracle.mesh, head.surface, spacing_for(oracle.area, spacing), is_nearest);
+    result.mesh_to_fit = measure_distance(oracle.mesh, all, spacing_for(oracle.area, spacing), is_nearest);
     results.push_back(result);
   }
   return results;

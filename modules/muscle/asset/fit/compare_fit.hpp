@@ -45,8 +45,7 @@ FitComparison compare_fit(const MuscleAsset& asset, std::uint32_t muscle, const 
 
 // The same for muscles that are the heads of one mesh; one answer a head. Each part of the mesh is compared with the
 // head whose surface is nearest to it. Of a head's surface those parts count that bound the heads' union: not what lies
-// inside another head, nor what is within 0.003 of the mesh's diagonal of one while deeper than that inside the mesh:
-// a wall between heads. mesh_volume and mesh_vertices are the whole mesh's.
+// inside another head. mesh_volume and mesh_vertices are the whole mesh's.
 std::vector<FitComparison> compare_heads(const MuscleAsset& asset, std::span<const std::uint32_t> heads,
                                          const MeshOracle& oracle, double spacing = 0.0);
 
