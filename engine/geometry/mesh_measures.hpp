@@ -1,4 +1,4 @@
-// Sizes of triangle meshes: bounds, area, enclosed volume.
+// Sizes of triangle meshes: bounds, area, enclosed volume. Triangles with a corner that is not finite do not count.
 #pragma once
 
 #include <glm/vec3.hpp>

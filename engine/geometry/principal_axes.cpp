@@ -10,19 +10,13 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/geometry/finite.hpp"
+#include "engine/geometry/for_each_triangle.hpp"
 
 namespace fascicle {
 namespace {
 
-// f(a, b, c, area) for each triangle with finite corners.
-template <class F>
-void for_each_triangle(const TriangleMesh& mesh, F f) {
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const glm::dvec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
-                     c = mesh.positions[mesh.indices[i + 2]];
-    if (is_finite(a) && is_finite(b) && is_finite(c)) f(a, b, c, 0.5 * glm::length(glm::cross(b - a, c - a)));
-  }
+double area_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
 // Eigenvectors of a symmetric matrix as columns, by Jacobi rotations; `matrix` becomes diagonal.
@@ -52,7 +46,8 @@ glm::dmat3 diagonalise(glm::dmat3& matrix) {
 // The integral of s^3 over the surface, s along `axis` from `centre`; and of |s|^3 at its corners, for scale.
 std::pair<double, double> third_moment(const TriangleMesh& mesh, const glm::dvec3& centre, const glm::dvec3& axis) {
   double moment = 0.0, scale = 0.0;
-  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double area) {
+  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double area = area_of(a, b, c);
     const double x = glm::dot(a - centre, axis), y = glm::dot(b - centre, axis), z = glm::dot(c - centre, axis);
     moment += area / 10.0 * (x * x * x + y * y * y + z * z * z + x * x * (y + z) + y * y * (x + z) +
                              z * z * (x + y) + x * y * z);
@@ -78,7 +73,8 @@ PrincipalAxes principal_axes(const TriangleMesh& mesh) {
   PrincipalAxes result;
   double area = 0.0, count = 0.0;
   glm::dvec3 weighted(0.0), mean(0.0);
-  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double size) {
+  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double size = area_of(a, b, c);
     area += size;
     weighted += size / 3.0 * (a + b + c);
     mean += (a + b + c) / 3.0;
@@ -89,9 +85,9 @@ PrincipalAxes principal_axes(const TriangleMesh& mesh) {
 
   if (area > 0.0) {
     glm::dmat3 covariance(0.0);
-    for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double size) {
+    for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
       const glm::dvec3 x = a - result.centre, y = b - result.centre, z = c - result.centre, sum = x + y + z;
-      const double weight = size / (12.0 * area);
+      const double weight = area_of(a, b, c) / (12.0 * area);
       covariance += weight * (glm::outerProduct(x, x) + glm::outerProduct(y, y) + glm::outerProduct(z, z) +
                               glm::outerProduct(sum, sum));
     });
@@ -109,7 +105,7 @@ PrincipalAxes principal_axes(const TriangleMesh& mesh) {
 
   constexpr double kMost = std::numeric_limits<double>::max();
   result.ranges.fill({kMost, -kMost});
-  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double) {
+  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (const glm::dvec3& corner : {a, b, c}) {
         const double along = glm::dot(corner - result.centre, result.axes[i]);

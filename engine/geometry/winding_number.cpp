@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/finite.hpp"
+#include "engine/geometry/for_each_triangle.hpp"
 #include "engine/geometry/triangle_tree.hpp"
 
 namespace fascicle {
@@ -115,12 +116,9 @@ void add_part(const Expansion& part, Expansion& whole) {
 double winding_number(const TriangleMesh& mesh, const glm::dvec3& point) {
   if (!is_finite(point)) return 0.0;
   double sum = 0.0;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const glm::vec3& a = mesh.positions[mesh.indices[i]];
-    const glm::vec3& b = mesh.positions[mesh.indices[i + 1]];
-    const glm::vec3& c = mesh.positions[mesh.indices[i + 2]];
-    if (is_finite(a) && is_finite(b) && is_finite(c)) sum += half_solid_angle(point, a, b, c);
-  }
+  for_each_triangle(mesh, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    sum += half_solid_angle(point, a, b, c);
+  });
   return sum / (2.0 * std::numbers::pi);
 }
 

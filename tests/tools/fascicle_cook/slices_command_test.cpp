@@ -110,9 +110,17 @@ TEST_F(SlicesCommand, ABoxInMillimetres) {
   EXPECT_EQ(err(), "");
 }
 
-TEST_F(SlicesCommand, TheWalker) {
-  ASSERT_EQ(run("walker"), 0) << err();
-  EXPECT_THAT(out(), HasSubstr("144 slices of 48 meshes\n"));
+// The default content is like the bodies that the method's authors sliced: q around 0.6, 75 % above 0.5, most concave.
+TEST_F(SlicesCommand, TheWalkerIsLikeTheAuthorsBodies) {
+  ASSERT_EQ(run("walker --csv '" + file("walker.csv") + "'"), 0) << err();
+  const auto number_after = [text = out()](const std::string& words) {
+    const std::size_t found = text.find(words);
+    return found == std::string::npos ? -1.0 : std::strtod(text.c_str() + found + words.size(), nullptr);
+  };
+  EXPECT_GE(number_after(""), 72.0) << out();
+  EXPECT_NEAR(number_after("isoperimetric quotient  mean "), 0.6, 0.1);
+  EXPECT_NEAR(number_after("quotient above 0.5"), 75.0, 12.0);
+  EXPECT_GT(number_after("\n  concave"), 50.0);
 }
 
 TEST_F(SlicesCommand, AnatomicalMeshes) {

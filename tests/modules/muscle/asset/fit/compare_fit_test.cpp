@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -70,6 +71,16 @@ TEST(CompareFit, WithNothingIsAllOutsideAndFinite) {
   EXPECT_EQ(found.rms(), 0.0);
   EXPECT_EQ(found.mesh_vertices, 0u);
   EXPECT_EQ(found.mesh_volume, 0.0);
+}
+
+TEST(CompareFit, WithAMeshThatIsNotFiniteIsFinite) {
+  const auto asset = build({rod("rod", 0.0f, 0.3f, 0.02f)});
+  TriangleMesh mesh = rest_surface(*asset, 0);
+  mesh.positions[5] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+  const FitComparison found = compare_fit(*asset, 0, MeshOracle(mesh));
+  EXPECT_TRUE(std::isfinite(found.rms()) && std::isfinite(found.max()) && std::isfinite(found.mesh_volume));
+  EXPECT_LT(found.mesh_to_fit.max, 1e-7);
+  EXPECT_NEAR(static_cast<double>(found.mesh_to_fit.samples), 2000.0, 1.0);
 }
 
 TEST(CompareFit, WithItselfIsNoDistance) {
