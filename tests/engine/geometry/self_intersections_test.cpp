@@ -139,14 +139,13 @@ TEST(SelfIntersections, AreAllThatTestingEveryPairFinds) {
 }
 
 TEST(SelfIntersections, AreTheSameForAnyNumberOfThreads) {
-  const TriangleMesh soup = test::make_soup(2000, 5);
-  const TriangleMesh spindle = test::make_torus(0.3f, 0.5f, 300, 100);  // more triangles than one round takes
-  const std::size_t in_soup = find(soup, 5000).pairs, in_spindle = find(spindle).pairs;
-  EXPECT_EQ(in_soup, 5000u);
-  EXPECT_GT(in_spindle, 300u);
-  for (const int workers : {1, 3, 16}) {
+  const TriangleMesh soup = test::make_soup(600, 5);
+  const TriangleMesh spindle = test::make_torus(0.3f, 0.5f, 150, 60);  // more triangles than one round takes
+  const std::size_t in_spindle = find(spindle).pairs;
+  EXPECT_GT(in_spindle, 150u);
+  for (const int workers : {1, 16}) {
     parallel::WorkerArena(workers).execute([&] {
-      EXPECT_EQ(find(soup, 5000).pairs, in_soup);
+      EXPECT_EQ(find(soup, 2000).pairs, 2000u);
       EXPECT_EQ(find(spindle).pairs, in_spindle);
     });
   }
