@@ -146,6 +146,8 @@ TEST_F(FascicleProgram, WritesStatisticsTraceReportAndHash) {
   ASSERT_EQ(report["metrics"]["muscle.length_ratio_max"].size(), 25u);
   EXPECT_GT(report["metrics"]["muscle.length_ratio_max"][24].asDouble(), 1.0);
   EXPECT_EQ(report["metrics"]["held_steps"][24].asDouble(), 0.0);
+  EXPECT_EQ(report["metrics"]["muscle.level_mean"].size(), 25u);
+  EXPECT_GT(report["metrics"]["muscle.vertices"][24].asDouble(), 0.0);
 }
 
 TEST_F(FascicleProgram, DetailGivesRowsPerCharacterAndMuscle) {

@@ -21,6 +21,9 @@ TEST(GameOptions, WrongArgumentsLeaveWithTheUsageStatus) {
       {"--threads", "0"},
       {"--characters", "0"},
       {"--simd", "neon"},
+      {"--level", "coarse"},
+      {"--level", "-1"},
+      {"--level", "1.5"},
       {"--scene"},
       {"--headless", "--no-draw", "--screenshot", "p.png"},
       {"--headless", "--no-draw", "--contact-sheet", "p.png"},
@@ -49,6 +52,13 @@ TEST(GameOptions, DefaultIsTheWalkerInAWindow) {
   EXPECT_TRUE(parsed.options.draw);
   EXPECT_EQ(parsed.options.copies, 1);
   EXPECT_FALSE(parsed.options.frames.has_value());
+}
+
+TEST(GameOptions, LevelsAreBySizeOrByNumber) {
+  EXPECT_FALSE(parse({}).options.level.has_value());
+  EXPECT_FALSE(parse({"--level", "auto"}).options.level.has_value());
+  EXPECT_EQ(parse({"--level", "0"}).options.level, 0u);
+  EXPECT_EQ(parse({"--level", "2"}).options.level, 2u);
 }
 
 TEST(GameOptions, ScreenshotMayNameAFrame) {

@@ -86,6 +86,39 @@ TEST(Simulation, SteadyFramesAllocateNothing) {
   }
 }
 
+// A viewer who walks backwards: levels follow, on any number of threads, and nothing is allocated.
+TEST(Simulation, MusclesGetCoarserAsTheViewerRecedes) {
+  const auto scene = load("walker");
+  ASSERT_TRUE(scene);
+  const auto run = [&](int workers) {
+    Simulation simulation(scene, {.workers = workers, .copies = 5});
+    const std::uint64_t finest = simulation.count_details().vertices;
+    double before = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      simulation.set_viewer({.enabled = true, .eye = {0.0f, 1.0f, 1.0f * static_cast<float>(i)},
+                             .pixels_per_radian = 1000.0f});
+      const test::AllocationScope count;
+      simulation.step();
+      if (i > 4) {
+        EXPECT_EQ(count.allocations(), 0u) << "step " << i;
+      }
+      const double now = simulation.count_details().mean_level;
+      EXPECT_GE(now, before - 0.05);  // a step of the walk towards the viewer
+      before = now;
+    }
+    const Simulation::DetailCounts counts = simulation.count_details();
+    EXPECT_EQ(counts.mean_level, static_cast<double>(counts.characters.size() - 1));
+    EXPECT_EQ(counts.characters.back(), 5u);
+    EXPECT_GE(counts.switches, 5u);
+    EXPECT_LT(counts.vertices, finest / 2);
+    expect_healthy(simulation);
+    return simulation.hash();
+  };
+  const std::uint64_t one = run(1);
+  EXPECT_EQ(run(2), one);
+  EXPECT_EQ(run(3), one);
+}
+
 TEST(Simulation, SwappingInTheSameSceneChangesNothing) {
   const auto scene = load("walker");
   ASSERT_TRUE(scene);

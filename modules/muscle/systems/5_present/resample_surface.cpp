@@ -1,6 +1,10 @@
 #include "modules/muscle/systems/5_present/resample_surface.hpp"
 
+#include <array>
 #include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
 
 #include "modules/muscle/asset/muscle_levels.hpp"
 
@@ -24,6 +28,23 @@ struct Borders {
   }
 };
 constexpr std::uint32_t kNoBorder = 0xffffffffu;
+
+// Normals of length 511 to 10:10:10 bits; those that cancel each other out point nowhere.
+std::uint32_t pack_surface_normal(const glm::vec3& sum) {
+  const float length = glm::length(sum);
+  const glm::vec3 normal = length > 0.0f ? (511.0f / length) * sum : glm::vec3(0.0f);
+  const auto bits = [](float x) { return static_cast<std::uint32_t>(std::lround(x)) & 0x3ffu; };
+  return bits(normal.x) | bits(normal.y) << 10 | bits(normal.z) << 20;
+}
+
+SurfaceVertex middle(const std::array<SurfaceVertex, 4>& corners) {
+  glm::vec3 place(0.0f), normal(0.0f);
+  for (const SurfaceVertex& corner : corners) {
+    place += 0.25f * corner.position;
+    normal += unpack_surface_normal(corner.normal);
+  }
+  return {place, pack_surface_normal(normal)};
+}
 
 // One muscle's rows from one level to another.
 class Resampler {
@@ -86,9 +107,10 @@ class Resampler {
     const SurfaceVertex* second = vertices_ + std::size_t{from.second} * from_.section_vertices;
     for (std::uint32_t i = 0; i < to_.section_vertices; ++i) {
       const Pair column = columns(i);
-      const glm::vec3 place = 0.25f * (first[column.first].position + first[column.second].position +
-                                      second[column.first].position + second[column.second].position);
-      *vertices++ = {place, first[column.first].normal};
+      *vertices++ = column.first == column.second && from.first == from.second
+                        ? first[column.first]
+                        : middle({first[column.first], first[column.second], second[column.first],
+                                  second[column.second]});
     }
     const float coordinate = 0.5f * (rows_[from.first].tendon_coordinate + rows_[from.second].tendon_coordinate);
     *rows++ = {coordinate, rows_[from.first].muscle};
