@@ -247,7 +247,12 @@ class FitArtist {
     // Pixels drawn.
     const float text = kOversampling * std::clamp(static_cast<float>(width) / 90.0f, 14.0f, 28.0f);
     const float line = 1.7f * text, margin = 0.7f * text;
-    std::vector<Caption> captions = {{{margin, 0.25f * line}, picture_.title, 0xffffffffu, false}};
+    std::string title = picture_.title;
+    if (picture_.muscles.size() == 1) {
+      const std::string& name = picture_.muscles[0].asset->muscles[picture_.muscles[0].muscle].name;
+      if (name != title) title += ": " + name;
+    }
+    std::vector<Caption> captions = {{{margin, 0.25f * line}, title, 0xffffffffu, false}};
     const float right = static_cast<float>(kOversampling * width) - margin;
     glm::vec2 at(margin, 1.25f * line);
     const auto add = [&](const std::string& words, const glm::vec4& colour) {

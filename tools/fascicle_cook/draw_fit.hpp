@@ -22,7 +22,7 @@ struct PicturedMuscle {
 };
 
 struct FitPicture {
-  std::string title;
+  std::string title;                    // a single muscle's name is added
   std::vector<PicturedMuscle> muscles;  // heads of one mesh: each with that mesh, which is drawn once
   int height = 1100;                    // pixels of each of the four sides' pictures, 64..4096
 };
