@@ -194,6 +194,11 @@ class Checker {
         break;
       }
     }
+    for (const std::optional<glm::vec3>& normal : fit.end_normals) {
+      if (normal && !(std::abs(glm::length(*normal) - 1.0f) < 1.0e-3f)) {
+        fault("", "its fit has an end's normal that is not of unit length", "fit it again");
+      }
+    }
     for (const float radius : fit.radii) {
       if (!(std::abs(radius) <= static_cast<float>(kRadiusRange.max))) {
         fault("", fmt::format("its fit has a radius of {} m", radius), "fit it again");

@@ -65,7 +65,7 @@ glm::dmat3 turn_of(std::int32_t bone, std::span<const glm::mat4> rest_bones) {
 }
 
 void set_end(const glm::dvec3& tangent, const glm::dvec3& reference, std::int32_t bone,
-             std::span<const glm::mat4> rest_bones, EndFrame& end) {
+             std::span<const glm::mat4> rest_bones, bool fixed, EndFrame& end) {
   const glm::dmat3 to_bone = glm::inverse(turn_of(bone, rest_bones));
   const glm::dvec3 t = to_bone * tangent, u = to_bone * reference;
   for (int i = 0; i < 3; ++i) {
@@ -74,24 +74,36 @@ void set_end(const glm::dvec3& tangent, const glm::dvec3& reference, std::int32_
   }
   end.tangent[3] = end.reference[3] = 0.0f;
   end.bone = static_cast<std::uint32_t>(bone);
+  end.fixed = fixed ? 1 : 0;
+}
+
+// Of an end section that an attachment area turns, else along the line.
+std::optional<glm::dvec3> fixed_normal(std::span<const MuscleFit> fits, std::uint32_t m, MuscleEnd end) {
+  if (fits.empty() || !fits[m].end_normals[static_cast<std::size_t>(end)]) return std::nullopt;
+  return glm::normalize(glm::dvec3(*fits[m].end_normals[static_cast<std::size_t>(end)]));
 }
 
 // The end frames. What the untwisted frame at the insertion is, the frame kernel knows best: it runs once with a
 // stand-in there, whose twist is then taken back.
 void set_end_frames(std::span<const MuscleDescription> descriptions, std::span<const glm::mat4> rest_bones,
-                    MuscleAsset& asset, RestState& state) {
+                    std::span<const MuscleFit> fits, MuscleAsset& asset, RestState& state) {
   asset.ends.assign(std::size_t{2} * asset.lane_count, EndFrame{});
   for (std::uint32_t m = 0; m < asset.size(); ++m) {
     const MuscleLayout& muscle = asset.muscles[m];
     const std::uint32_t last = muscle.section_count - 1;
-    const glm::dvec3 start = glm::normalize(glm::dvec3(rest_point(asset, m, 1)) - glm::dvec3(rest_point(asset, m, 0)));
-    const glm::dvec3 finish =
-        glm::normalize(glm::dvec3(rest_point(asset, m, last)) - glm::dvec3(rest_point(asset, m, last - 1)));
+    const auto along = [&](std::uint32_t from, std::uint32_t to) {
+      return glm::normalize(glm::dvec3(rest_point(asset, m, to)) - glm::dvec3(rest_point(asset, m, from)));
+    };
+    const auto first_normal = fixed_normal(fits, m, MuscleEnd::kOrigin);
+    const auto last_normal = fixed_normal(fits, m, MuscleEnd::kInsertion);
+    const glm::dvec3 start = first_normal.value_or(along(0, 1)), finish = last_normal.value_or(along(last - 1, last));
     EndFrame* ends = &asset.ends[std::size_t{2} * muscle.lane_index];
     const std::int32_t origin = descriptions[m].attachments.front().bone;
     const std::int32_t insertion = descriptions[m].attachments.back().bone;
-    set_end(start, rest_reference(turn_of(origin, rest_bones), start), origin, rest_bones, ends[0]);
-    set_end(finish, rest_reference(turn_of(insertion, rest_bones), finish), insertion, rest_bones, ends[1]);
+    set_end(start, rest_reference(turn_of(origin, rest_bones), start), origin, rest_bones, first_normal.has_value(),
+            ends[0]);
+    set_end(finish, rest_reference(turn_of(insertion, rest_bones), finish), insertion, rest_bones,
+            last_normal.has_value(), ends[1]);
   }
   build_rest_frames(asset, rest_bones, state);
   for (std::uint32_t m = 0; m < asset.size(); ++m) {
@@ -100,8 +112,9 @@ void set_end_frames(std::span<const MuscleDescription> descriptions, std::span<c
     const glm::dvec3 u(state.ux[slot], state.uy[slot], state.uz[slot]);
     const glm::dvec3 v(state.vx[slot], state.vy[slot], state.vz[slot]);
     const double twist = double{state.twist[muscle.lane_index]};
+    EndFrame& end = asset.ends[std::size_t{2} * muscle.lane_index + 1];
     set_end(glm::cross(u, v), std::cos(twist) * u - std::sin(twist) * v, descriptions[m].attachments.back().bone,
-            rest_bones, asset.ends[std::size_t{2} * muscle.lane_index + 1]);
+            rest_bones, end.fixed != 0, end);
   }
   build_rest_frames(asset, rest_bones, state);
 }
@@ -196,7 +209,7 @@ Diagnostics shape_rest(std::span<const MuscleDescription> descriptions, std::spa
                        std::span<const MuscleFit> fits, MuscleAsset& asset) {
   Diagnostics found;
   RestState state(asset);
-  set_end_frames(descriptions, rest_bones, asset, state);
+  set_end_frames(descriptions, rest_bones, fits, asset, state);
   find_rest_tendons(asset, state);
 
   asset.rest_radii.assign(asset.radius_count + kLanes, 0.0f);

@@ -8,6 +8,8 @@
 // does only at half a turn.) The insertion's bone carries a direction the same way; the angle from u to it is the
 // muscle's twist, zero at rest, unwrapped against the last frame, and spread over the sections by arc length.
 //
+// A muscle that is attached to an area has an end section that lies on it: its tangent is fixed in the bone as well.
+//
 // Steps too short to have a direction, hairpins and reversals keep the previous direction, so that no lane ever divides
 // by zero. Lanes that end early repeat their last section.
 // For the kernels' source files only (see engine/math/wide_float.hpp).
@@ -86,6 +88,9 @@ FASCICLE_INLINE WideVector<N> square_up(WideVector<N> r, WideVector<N> t) {
 struct LaneDirections {
   alignas(64) float x[kLanes], y[kLanes], z[kLanes];
 };
+struct LaneMask {
+  alignas(64) std::int32_t lanes[kLanes];  // -1 or 0
+};
 
 template <int N>
 FASCICLE_INLINE WideVector<N> load_directions(const LaneDirections& from) {
@@ -94,7 +99,7 @@ FASCICLE_INLINE WideVector<N> load_directions(const LaneDirections& from) {
 
 // The end frames of a block's lanes, turned by their bones.
 FASCICLE_INLINE void turn_ends(const float* bones, const EndFrame* ends, LaneDirections* tangents,
-                               LaneDirections* references) {
+                               LaneDirections* references, LaneMask* fixed) {
   for (int end = 0; end < 2; ++end) {
     for (std::uint32_t lane = 0; lane < kLanes; lane += 4) {
       __m128 t[4], u[4];
@@ -102,6 +107,7 @@ FASCICLE_INLINE void turn_ends(const float* bones, const EndFrame* ends, LaneDir
         const EndFrame& frame = ends[2 * (lane + i) + static_cast<std::uint32_t>(end)];
         t[i] = transform(bones + 16 * frame.bone, frame.tangent).v;
         u[i] = transform(bones + 16 * frame.bone, frame.reference).v;
+        fixed[end].lanes[lane + i] = frame.fixed != 0 ? -1 : 0;
       }
       _MM_TRANSPOSE4_PS(t[0], t[1], t[2], t[3]);
       _MM_TRANSPOSE4_PS(u[0], u[1], u[2], u[3]);
@@ -126,6 +132,7 @@ template <bool kHold>
 inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   constexpr int N = kLanes;
   using Float = WideFloat<N>;
+  using Int = WideInt<N>;
   using Vector = WideVector<N>;
   const LaneBlock& block = job.blocks[block_index];
   const std::size_t first = block.first_slot;
@@ -139,7 +146,12 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   };
 
   LaneDirections tangents[2], references[2];
-  turn_ends(job.bones, job.ends + 2 * lane, tangents, references);
+  LaneMask fixed_lanes[2];
+  turn_ends(job.bones, job.ends + 2 * lane, tangents, references, fixed_lanes);
+  const WideInt<N> origin_fixed = load_int<N>(fixed_lanes[0].lanes);
+  const WideInt<N> insertion_fixed = load_int<N>(fixed_lanes[1].lanes);
+  const bool any_fixed = any(origin_fixed) || any(insertion_fixed);
+  const Vector end_t = direction_of(load_directions<N>(tangents[1]));
 
   // Along the line: tangents, carried directions, arc length.
   Vector t = direction_of(load_directions<N>(tangents[0]));
@@ -156,7 +168,13 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
     const Float chord_squared = dot(chord, chord);
     const WideInt<N> has_direction = broadcast<N>(kShortestStepSquared) < chord_squared;
     const Float inverse = one / square_root(select(has_direction, chord_squared, one));
-    const Vector next_t = select(has_direction, inverse * chord, t);
+    Vector next_t = select(has_direction, inverse * chord, t);
+    if (any_fixed) {
+      if (k == 0) next_t = select(origin_fixed, t, next_t);
+      const Int here_last = broadcast_int<N>(static_cast<int>(k)) < counts;
+      const Int next_last = broadcast_int<N>(static_cast<int>(k + 1)) < counts;
+      next_t = select(insertion_fixed & (here_last ^ next_last), end_t, next_t);
+    }
     r = carry(r, t, step, step_squared, next_t);
     t = next_t;
     u = square_up(r, t);
@@ -176,7 +194,6 @@ inline void build_block(const BuildFramesJob& job, std::size_t block_index) {
   }
 
   // The twist at the insertion.
-  const Vector end_t = direction_of(load_directions<N>(tangents[1]));
   const Vector end_r = square_direction_of(load_directions<N>(references[1]), end_t);
   const Vector wanted = square_up(carry(end_r, end_t, Vector{zero, zero, zero}, zero, t), t);
   Float twist = arc_tangent(dot(cross(t, u), wanted), dot(u, wanted));

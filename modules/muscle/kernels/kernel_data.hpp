@@ -26,7 +26,8 @@ struct alignas(16) EndFrame {
   float tangent[4] = {1.0f, 0.0f, 0.0f, 0.0f};    // bone's frame; unit in the rest bones' space
   float reference[4] = {0.0f, 1.0f, 0.0f, 0.0f};  // likewise, square to the tangent
   std::uint32_t bone = 0;
-  std::uint32_t unused[3] = {};
+  std::uint32_t fixed = 0;  // 1: the end section stands square to `tangent`, however the line runs (a wide attachment)
+  std::uint32_t unused[2] = {};
 };
 
 // 16 muscles side by side; see MuscleAsset.

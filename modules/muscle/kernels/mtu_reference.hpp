@@ -96,6 +96,7 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
   const EndFrame& insertion = job.ends[2 * lane_index + 1];
   const int count = block.counts[lane];
 
+  const Vec end_t = direction_of(transform(job.bones + 16 * insertion.bone, insertion.tangent));
   Vec t = direction_of(transform(job.bones + 16 * origin.bone, origin.tangent));
   Vec r = square_direction_of(transform(job.bones + 16 * origin.bone, origin.reference), t);
   Vec u = r;
@@ -103,7 +104,9 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
   for (int k = 0; k < count; ++k) {
     const Vec before = point(k > 0 ? k - 1 : 0), here = point(k), next = point(k + 1 < count ? k + 1 : k);
     const Vec chord = next - before;
-    const Vec next_t = dot(chord, chord) > kShortestStepSquared ? normalized(chord) : t;
+    Vec next_t = dot(chord, chord) > kShortestStepSquared ? normalized(chord) : t;
+    if (k == 0 && origin.fixed != 0) next_t = t;
+    if (k + 1 == count && insertion.fixed != 0) next_t = end_t;
     r = carry(r, t, here - before, next_t);
     t = next_t;
     u = square_up(r, t);
@@ -118,7 +121,6 @@ static void build_lane(const BuildFramesJob& job, const LaneBlock& block, std::s
     arc += __builtin_sqrtf(dot(next - here, next - here));
   }
 
-  const Vec end_t = direction_of(transform(job.bones + 16 * insertion.bone, insertion.tangent));
   const Vec end_r = square_direction_of(transform(job.bones + 16 * insertion.bone, insertion.reference), end_t);
   const Vec wanted = square_up(carry(end_r, end_t, Vec{0.0f, 0.0f, 0.0f}, t), t);
   float twist = __builtin_atan2f(dot(cross(t, u), wanted), dot(u, wanted));

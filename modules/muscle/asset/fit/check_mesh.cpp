@@ -9,6 +9,8 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr double kLeastVolume = 1.0e-9;  // of the cube of its size: less is what rounding leaves
+
 std::uint64_t mixed(std::uint32_t from, std::uint32_t to) {
   std::uint64_t h = (std::uint64_t{from} << 32 | to) * 0x9e3779b97f4a7c15ull;
   h ^= h >> 32;
@@ -27,7 +29,8 @@ bool is_sound(const TriangleMesh& mesh) {
     const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
     sides += mixed(a, b) + mixed(b, c) + mixed(c, a) - mixed(b, a) - mixed(c, b) - mixed(a, c);
   }
-  return sides == 0 && mesh_volume(mesh) > 0.0;
+  const double size = double{mesh_bounds(mesh).diagonal()};
+  return sides == 0 && mesh_volume(mesh) > kLeastVolume * size * size * size;
 }
 
 CheckedMesh check_mesh(const TriangleMesh& mesh) {

@@ -6,11 +6,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "modules/muscle/asset/fit/end_area.hpp"
 #include "modules/muscle/asset/fit/fill_misses.hpp"
 #include "modules/muscle/asset/fit/inner_point.hpp"
 #include "modules/muscle/asset/fit/match_order.hpp"
+#include "modules/muscle/asset/fit/outside_section.hpp"
 #include "modules/muscle/asset/fit/section_rays.hpp"
 #include "modules/muscle/asset/fit/section_slice.hpp"
+#include "modules/muscle/asset/fit/unfold_sections.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -39,8 +42,8 @@ glm::dvec3 place(const SectionFrame& frame, const glm::dvec2& at) {
 class LineFitter {
  public:
   LineFitter(const FitSurface& surface, std::span<const glm::dvec3> points, const glm::dmat3& origin_bone,
-             const FitOptions& options, LineFit& fit)
-      : surface_(surface), points_(points), origin_bone_(origin_bone), options_(options), fit_(fit) {
+             const std::array<TriangleMesh, 2>& areas, const FitOptions& options, LineFit& fit)
+      : surface_(surface), points_(points), origin_bone_(origin_bone), areas_(areas), options_(options), fit_(fit) {
     fit_.centres.assign(points.begin(), points.end());
     fit_.sections.resize(points.size());
   }
@@ -55,29 +58,52 @@ class LineFitter {
       fit_.centres.front() = points_.front();
       fit_.centres.back() = points_.back();
     }
+    lay_ends_on_areas();
   }
 
   // Sweep 2, in the planes that the moved centres give: the radii.
   void find_radii(std::uint32_t section_vertices) {
     cast(section_vertices);
     if (options_.rescue) choose_slices_of_centres();
-    fit_.any_hit = std::ranges::count(rays_.hits, 1) > 0;
+    for (const std::size_t k : {std::size_t{0}, frames_.size() - 1}) {
+      if (const TriangleMesh* area = area_of(k)) cast_area(*area, frames_[k], k, directions_, rays_);
+    }
     report();
+    if (options_.rescue && surface_.has_plain_slices()) shape_outside_sections();
+    fit_.any_hit = std::ranges::count(rays_.hits, 1) > 0;
     if (!fit_.any_hit) return;
     std::vector<double> arcs(points_.size(), 0.0);
     for (std::size_t k = 1; k < arcs.size(); ++k) {
       arcs[k] = arcs[k - 1] + glm::distance(fit_.centres[k - 1], fit_.centres[k]);
     }
     fill_misses(section_vertices, arcs, rays_.hits, rays_.radii);
+    if (options_.rescue) unfold_sections(frames_, directions_, rays_.radii);
     fit_.radii = std::move(rays_.radii);
   }
 
  private:
   void cast(std::uint32_t rays_a_section) {
     directions_ = ray_directions(rays_a_section);
-    rest_frames(fit_.centres, origin_bone_, frames_);
+    rest_frames(fit_.centres, origin_bone_, fit_.end_normals, frames_);
     cast_sections(surface_, frames_, directions_, rays_);
     slices_.assign(frames_.size(), std::nullopt);
+  }
+
+  // Along the line as it runs now.
+  void lay_ends_on_areas() {
+    const std::vector<glm::dvec3>& a = fit_.centres;
+    const std::array<glm::dvec3, 2> along{a[1] - a[0], a[a.size() - 1] - a[a.size() - 2]};
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (areas_[end].indices.empty() || glm::length(along[end]) == 0.0) continue;
+      fit_.end_normals[end] = area_normal(areas_[end], glm::normalize(along[end]));
+    }
+  }
+
+  // The area that the section lies on, or null.
+  const TriangleMesh* area_of(std::size_t k) const {
+    if (k == 0 && fit_.end_normals[0]) return &areas_[0];
+    if (k + 1 == frames_.size() && fit_.end_normals[1]) return &areas_[1];
+    return nullptr;
   }
 
   // Only a plane that some line crosses more than twice can cut the mesh in several loops that matter: a second loop
@@ -139,7 +165,9 @@ class LineFitter {
   std::vector<std::vector<InsideInterval>> find_inside_along(std::span<const std::size_t> sections,
                                                              std::span<const glm::dvec2> directions) const {
     std::vector<Line> lines;
-    for (std::size_t i = 0; i < sections.size(); ++i) lines.push_back(section_line(frames_[sections[i]], directions[i]));
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      lines.push_back(section_line(frames_[sections[i]], directions[i]));
+    }
     std::vector<std::uint32_t> starts;
     std::vector<InsideInterval> all;
     surface_.find_inside(lines, starts, all);
@@ -225,6 +253,16 @@ class LineFitter {
     return middle;
   }
 
+  void shape_outside_sections() {
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      if (fit_.sections[k].outcome != SectionOutcome::kOutside || area_of(k) != nullptr) continue;
+      const std::size_t first = k * rays_.count;
+      shape_outside_section(slice_section(surface_.mesh(), frames_[k]), directions_,
+                            std::span(rays_.radii).subspan(first, rays_.count),
+                            std::span(rays_.hits).subspan(first, rays_.count));
+    }
+  }
+
   void report() {
     std::vector<Line> lines(frames_.size());
     for (std::size_t k = 0; k < frames_.size(); ++k) lines[k] = section_line(frames_[k], kAnyDirection);
@@ -250,6 +288,7 @@ class LineFitter {
   const FitSurface& surface_;
   std::span<const glm::dvec3> points_;
   const glm::dmat3& origin_bone_;
+  const std::array<TriangleMesh, 2>& areas_;
   const FitOptions& options_;
   LineFit& fit_;
   std::vector<glm::dvec2> directions_;
@@ -261,9 +300,9 @@ class LineFitter {
 }  // namespace
 
 LineFit fit_line(const FitSurface& surface, std::span<const glm::dvec3> points, const glm::dmat3& origin_bone,
-                 std::uint32_t section_vertices, const FitOptions& options) {
+                 std::uint32_t section_vertices, const std::array<TriangleMesh, 2>& areas, const FitOptions& options) {
   LineFit fit;
-  LineFitter fitter(surface, points, origin_bone, options, fit);
+  LineFitter fitter(surface, points, origin_bone, areas, options, fit);
   fitter.move_centres(std::max(1u, options.supersampling) * section_vertices);
   fitter.find_radii(section_vertices);
   return fit;

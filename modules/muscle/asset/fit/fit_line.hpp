@@ -1,6 +1,7 @@
 // The method's algorithm (2.3) for one line of sections and one mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "modules/muscle/asset/fit/fit_muscles.hpp"
 #include "modules/muscle/asset/fit/fit_surface.hpp"
+#include "modules/muscle/asset/fit/rest_frames.hpp"
 
 namespace fascicle::muscle {
 
@@ -17,14 +19,16 @@ struct LineFit {
   std::vector<glm::dvec3> centres;      // m, a_k
   std::vector<double> radii;            // m, |C| a section
   std::vector<SectionReport> sections;
+  EndNormals end_normals;               // where an area gives them
   bool any_hit = false;                 // false: the sections miss the mesh altogether
 };
 
 // Two sweeps: the first finds an inner point for every centre that is outside, from CSS |C| rays; then the ends go back
 // to where the model has them and all planes are found anew, because moved neighbours turn them; the second casts the
 // |C| final rays. `points`: at least 2, the sections' centres before the fit, m. `origin_bone`: the linear part of the
-// origin bone's rest matrix.
+// origin bone's rest matrix. `areas`: the attachment areas at the origin and the insertion, by themselves; without
+// triangles: none, the end section is cast like the others.
 LineFit fit_line(const FitSurface& surface, std::span<const glm::dvec3> points, const glm::dmat3& origin_bone,
-                 std::uint32_t section_vertices, const FitOptions& options);
+                 std::uint32_t section_vertices, const std::array<TriangleMesh, 2>& areas, const FitOptions& options);
 
 }  // namespace fascicle::muscle

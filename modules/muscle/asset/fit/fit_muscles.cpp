@@ -13,6 +13,7 @@
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/check_descriptions.hpp"
 #include "modules/muscle/asset/fit/check_mesh.hpp"
+#include "modules/muscle/asset/fit/end_area.hpp"
 #include "modules/muscle/asset/fit/fit_line.hpp"
 #include "modules/muscle/asset/fit/head_region.hpp"
 
@@ -70,6 +71,23 @@ bool check_size(const FitInput& input, const TriangleMesh& mesh, double line_len
   return false;
 }
 
+// The attachment area at an end, in the mesh as it was mended. Triangles that are not there, or no longer, are left out.
+TriangleMesh find_area(const FitInput& input, const CheckedMesh& checked, const TriangleMesh& mesh, std::size_t end) {
+  std::vector<std::uint32_t> triangles = input.areas[end];
+  if (triangles.empty()) return {};
+  const auto count = static_cast<std::uint32_t>(input.mesh->indices.size() / 3);
+  std::erase_if(triangles, [&](std::uint32_t triangle) { return triangle >= count; });
+  if (checked.mended) {
+    std::vector<bool> wanted(count, false);
+    for (const std::uint32_t triangle : triangles) wanted[triangle] = true;
+    triangles.clear();
+    for (std::uint32_t i = 0; i < checked.source_triangles.size(); ++i) {
+      if (wanted[checked.source_triangles[i]]) triangles.push_back(i);
+    }
+  }
+  return take_triangles(mesh, triangles);
+}
+
 FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_bones, const RayDevice& device,
                         const FitOptions& options, const HeadRegion* region) {
   FittedMuscle fitted;
@@ -87,13 +105,15 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
                            region);
   const glm::dmat3 origin_bone{
       glm::dmat4(rest_bones[static_cast<std::size_t>(description.attachments.front().bone)])};
-  const LineFit fit = fit_line(surface, points, origin_bone, description.section_vertices, options);
+  const std::array areas{find_area(input, checked, mesh, 0), find_area(input, checked, mesh, 1)};
+  const LineFit fit = fit_line(surface, points, origin_bone, description.section_vertices, areas, options);
   std::string defects = checked.defects;
   if (defects.empty() && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
   if (!fit.any_hit) {
     warn(input,
-         defects.empty() ? "is missed by the muscle's action line altogether: no section's plane meets it"
-                         : fmt::format("is missed by the muscle's action line altogether, or encloses nothing: {}", defects),
+         defects.empty()
+             ? "is missed by the muscle's action line altogether: no section's plane meets it"
+             : fmt::format("is missed by the muscle's action line altogether, or encloses nothing: {}", defects),
          fmt::format("check its place, unit and holes; {}", kUnfitted), fitted);
     return fitted;
   }
@@ -107,6 +127,9 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
     fitted.fit.displacements.push_back(glm::vec3(fit.centres[k] - points[k]));
   }
   fitted.fit.radii.assign(fit.radii.begin(), fit.radii.end());
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (fit.end_normals[end]) fitted.fit.end_normals[end] = glm::vec3(*fit.end_normals[end]);
+  }
   return fitted;
 }
 
@@ -142,7 +165,8 @@ std::vector<FittedMuscle> fit_muscles(std::span<const FitInput> inputs, std::spa
   const RayDevice device;
   parallel::for_range(inputs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (wanted[i]) fitted[i] = fit_muscle(inputs[i], rest_bones, device, options, regions[i] ? &*regions[i] : nullptr);
+      const HeadRegion* region = regions[i] ? &*regions[i] : nullptr;
+      if (wanted[i]) fitted[i] = fit_muscle(inputs[i], rest_bones, device, options, region);
     }
   });
   return fitted;

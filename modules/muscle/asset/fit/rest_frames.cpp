@@ -32,18 +32,21 @@ glm::dvec3 carry(const glm::dvec3& r, const glm::dvec3& t, const glm::dvec3& ste
 
 }  // namespace
 
-void rest_frames(std::span<const glm::dvec3> points, const glm::dmat3& origin_bone,
+void rest_frames(std::span<const glm::dvec3> points, const glm::dmat3& origin_bone, const EndNormals& end_normals,
                  std::vector<SectionFrame>& frames) {
   frames.resize(points.size());
   const std::size_t last = points.size() - 1;
   const glm::dvec3 first_step = points[1] - points[0];
   glm::dvec3 t = glm::dot(first_step, first_step) > 0.0 ? glm::normalize(first_step) : glm::dvec3(1.0, 0.0, 0.0);
+  if (end_normals[0]) t = *end_normals[0];
   glm::dvec3 r = rest_reference(origin_bone, t);
   for (std::size_t k = 0; k <= last; ++k) {
     const glm::dvec3& before = points[k > 0 ? k - 1 : 0];
     const glm::dvec3 chord = points[k < last ? k + 1 : k] - before;
     const double squared = glm::dot(chord, chord);
-    const glm::dvec3 next_t = squared > kShortestStepSquared ? chord / std::sqrt(squared) : t;
+    glm::dvec3 next_t = squared > kShortestStepSquared ? chord / std::sqrt(squared) : t;
+    if (k == 0 && end_normals[0]) next_t = *end_normals[0];
+    if (k == last && end_normals[1]) next_t = *end_normals[1];
     r = carry(r, t, points[k] - before, next_t);
     t = next_t;
     const glm::dvec3 u = glm::normalize(r - glm::dot(r, t) * t);

@@ -2,6 +2,8 @@
 // float's rounding. The fit casts in these planes, so that the fitted radii mean the same to the built muscle.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +17,11 @@ struct SectionFrame {
   glm::dvec3 tangent{0.0}, u{0.0}, v{0.0};        // unit, square to each other; v = tangent x u
 };
 
-// One frame a point. `origin_bone`: the linear part of the origin bone's rest matrix, for u_0.
-void rest_frames(std::span<const glm::dvec3> points, const glm::dmat3& origin_bone, std::vector<SectionFrame>& frames);
+// Normals of the first and the last section, where an attachment area gives them; unit.
+using EndNormals = std::array<std::optional<glm::dvec3>, 2>;
+
+// One frame a point, at least 2. `origin_bone`: the linear part of the origin bone's rest matrix, for u_0.
+void rest_frames(std::span<const glm::dvec3> points, const glm::dmat3& origin_bone, const EndNormals& end_normals,
+                 std::vector<SectionFrame>& frames);
 
 }  // namespace fascicle::muscle

@@ -143,6 +143,13 @@ TEST(CheckDescriptions, FitsMustHaveTheRightSize) {
   EXPECT_FALSE(build_muscle_asset(muscles, two_bones(), fits).ok());
   fits[0].radii.assign(40, 0.01f);
   EXPECT_TRUE(build_muscle_asset(muscles, two_bones(), fits).ok());
+  fits[0].end_normals[1] = glm::vec3(0.0f, 0.6f, 0.8f);
+  EXPECT_TRUE(build_muscle_asset(muscles, two_bones(), fits).ok());
+  for (const glm::vec3& normal : {glm::vec3(0.0f), glm::vec3(0.0f, 0.9f, 0.9f), glm::vec3(kNaN, 0.0f, 1.0f)}) {
+    fits[0].end_normals[1] = normal;
+    EXPECT_FALSE(build_muscle_asset(muscles, two_bones(), fits).ok());
+  }
+  fits[0].end_normals = {};
   fits[0].radii[3] = kNaN;
   EXPECT_FALSE(build_muscle_asset(muscles, two_bones(), fits).ok());
 }

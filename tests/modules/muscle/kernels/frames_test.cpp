@@ -13,7 +13,8 @@ namespace {
 using test::MuscleState;
 
 // A muscle from bone 0 to bone 1 by points in the rest space, half of them on each bone.
-std::shared_ptr<const MuscleAsset> build(const std::vector<glm::vec3>& points, std::uint32_t subdivision = 2) {
+std::shared_ptr<const MuscleAsset> build(const std::vector<glm::vec3>& points, std::uint32_t subdivision = 2,
+                                         const MuscleFit& fit = {}) {
   MuscleDescription muscle;
   muscle.name = "m";
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -21,7 +22,7 @@ std::shared_ptr<const MuscleAsset> build(const std::vector<glm::vec3>& points, s
   }
   muscle.volume = 1.0e-4f;
   muscle.longitudinal_subdivision = subdivision;
-  const auto result = build_muscle_asset(std::vector{muscle}, std::vector(2, glm::mat4(1.0f)));
+  const auto result = build_muscle_asset(std::vector{muscle}, std::vector(2, glm::mat4(1.0f)), std::vector{fit});
   EXPECT_TRUE(result.ok()) << to_text(result.diagnostics());
   return *result;
 }
@@ -94,6 +95,35 @@ TEST(Frames, TwistIsSpreadAlongTheLineAndPassesHalfATurn) {
     }
     EXPECT_LT(glm::distance(state.u(0, 2), last_middle), 0.1f) << "a jump at " << degrees;
     last_middle = state.u(0, 2);
+  }
+}
+
+// Wide attachments: the end sections turn with their bones, whatever the line does between.
+TEST(Frames, EndsOnAreasTurnWithTheirBones) {
+  MuscleFit fit;
+  fit.end_normals = {glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f)), glm::normalize(glm::vec3(-0.5f, -1.0f, 0.4f))};
+  const std::vector<glm::vec3> points = {
+      {0.0f, 0.0f, 0.0f}, {0.0f, -0.1f, 0.02f}, {0.0f, -0.2f, 0.0f}, {0.0f, -0.3f, 0.01f}};
+  const auto asset = build(points, 2, fit), plain = build(points, 2);
+  MuscleState state(asset), without(plain);
+  for (const float angle : {0.0f, 0.4f, -0.9f}) {
+    const std::vector<glm::mat4> bones = {glm::rotate(glm::mat4(1.0f), 0.5f * angle, {0.0f, 0.6f, 0.8f}),
+                                          glm::rotate(glm::mat4(1.0f), angle, {1.0f, 0.0f, 0.0f})};
+    state.step(best(), bones, true);
+    without.step(best(), bones, true);
+    expect_orthonormal(state);
+    const std::uint32_t last = asset->muscles[0].section_count - 1;
+    for (const std::uint32_t k : {0u, last}) {
+      const glm::vec3 expected(bones[k == 0 ? 0 : 1] * glm::vec4(*fit.end_normals[k == 0 ? 0 : 1], 0.0f));
+      EXPECT_LT(glm::distance(glm::cross(state.u(0, k), state.v(0, k)), expected), 2.0e-6f) << angle << " " << k;
+    }
+    for (std::uint32_t k = 1; k < last; ++k) {  // the others stand square to the line as ever
+      EXPECT_LT(glm::distance(glm::cross(state.u(0, k), state.v(0, k)), glm::cross(without.u(0, k), without.v(0, k))),
+                2.0e-6f);
+    }
+    if (angle == 0.0f) {
+      EXPECT_NEAR(state.twist(0), 0.0f, 1.0e-5f);
+    }
   }
 }
 

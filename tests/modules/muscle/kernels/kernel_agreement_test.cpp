@@ -20,7 +20,8 @@ struct Size {
 };
 void PrintTo(const Size& size, std::ostream* to) { *to << size.section_vertices << " at LSS " << size.subdivision; }
 
-// Muscles of several |C| and LSS in one asset, some with a tendon at both ends, one without, radii of both signs.
+// Muscles of several |C| and LSS in one asset, some with a tendon at both ends, one without, radii of both signs, some
+// with end sections that lie on areas of their bones.
 std::shared_ptr<const MuscleAsset> build(Size size) {
   std::vector<MuscleDescription> muscles = test::synthetic_muscles(size.section_vertices, size.subdivision);
   muscles[3].tendon_at_origin = 0.5f;
@@ -28,7 +29,10 @@ std::shared_ptr<const MuscleAsset> build(Size size) {
   muscles[7].section_vertices = 10;
   muscles[11].section_vertices = 14;
   muscles[13].longitudinal_subdivision = 3;
-  const auto result = build_muscle_asset(muscles, test::rest_bones());
+  std::vector<MuscleFit> fits(muscles.size());
+  fits[2].end_normals[0] = fits[4].end_normals[1] = glm::vec3(0.0f, -0.8f, 0.6f);
+  fits[9].end_normals = {glm::vec3(0.6f, -0.8f, 0.0f), glm::vec3(0.0f, -0.6f, -0.8f)};
+  const auto result = build_muscle_asset(muscles, test::rest_bones(), fits);
   EXPECT_TRUE(result.ok()) << to_text(result.diagnostics());
   return *result;
 }

@@ -21,7 +21,11 @@ void expect_built_frames(std::span<const MuscleDescription> muscles, std::span<c
     std::vector<glm::dvec3> points;
     for (std::uint32_t k = 0; k < asset.muscles[m].section_count; ++k) points.push_back(rest_point(asset, m, k));
     const auto bone = static_cast<std::size_t>(muscles[m].attachments.front().bone);
-    rest_frames(points, glm::dmat3(glm::dmat4(bones[bone])), frames);
+    EndNormals normals;
+    for (std::size_t end = 0; end < 2 && !fits.empty(); ++end) {
+      if (fits[m].end_normals[end]) normals[end] = glm::dvec3(*fits[m].end_normals[end]);
+    }
+    rest_frames(points, glm::dmat3(glm::dmat4(bones[bone])), normals, frames);
     ASSERT_EQ(frames.size(), points.size());
     for (std::uint32_t k = 0; k < points.size(); ++k) {
       const std::uint32_t s = asset.slot(m, k);
@@ -48,12 +52,23 @@ TEST(RestFrames, AreThoseOfTheBuiltMuscleWhenItIsDisplaced) {
   expect_built_frames(muscles, fits);
 }
 
+TEST(RestFrames, AreThoseOfTheBuiltMuscleWhenItsEndsLieOnAreas) {
+  const std::vector<MuscleDescription> muscles = test::synthetic_muscles(8, 2);
+  test::Numbers numbers(9);
+  std::vector<MuscleFit> fits(muscles.size());
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    if (m % 3 != 0) fits[m].end_normals[0] = glm::normalize(numbers.point(-1.0f, 1.0f) + glm::vec3(0.0f, -2.0f, 0.0f));
+    if (m % 3 != 1) fits[m].end_normals[1] = glm::normalize(numbers.point(-1.0f, 1.0f) + glm::vec3(0.0f, -2.0f, 0.0f));
+  }
+  expect_built_frames(muscles, fits);
+}
+
 TEST(RestFrames, ZeroLengthAndHairpinsStayFinite) {
   std::vector<SectionFrame> frames;
   for (const std::vector<glm::dvec3>& points :
        {std::vector<glm::dvec3>{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, std::vector<glm::dvec3>{{0, 0, 0}, {0, 1, 0}, {0, 0, 0}},
         std::vector<glm::dvec3>{{0, 0, 0}, {0, 0, 1}}}) {
-    rest_frames(points, glm::dmat3(1.0), frames);
+    rest_frames(points, glm::dmat3(1.0), {}, frames);
     for (const SectionFrame& frame : frames) {
       EXPECT_NEAR(glm::length(frame.u), 1.0, 1e-12);
       EXPECT_NEAR(glm::length(frame.v), 1.0, 1e-12);
@@ -67,8 +82,8 @@ TEST(RestFrames, TurnWithTheBone) {
   std::vector<glm::dvec3> turned;
   for (const glm::dvec3& p : points) turned.push_back(turn * p);
   std::vector<SectionFrame> before, after;
-  rest_frames(points, glm::dmat3(1.0), before);
-  rest_frames(turned, turn, after);
+  rest_frames(points, glm::dmat3(1.0), {}, before);
+  rest_frames(turned, turn, {}, after);
   for (std::size_t k = 0; k < points.size(); ++k) EXPECT_LT(glm::distance(turn * before[k].u, after[k].u), 1e-6);
 }
 
