@@ -38,8 +38,10 @@ std::string muscle_text(const MuscleSpec& muscle) {
       "{},\n",
       number(muscle.max_isometric_force), number(muscle.optimal_fibre_length), number(muscle.tendon_slack_length),
       number(muscle.pennation));
-  text +=
-      fmt::format("      \"source_length\": {}, \"mesh\": \"{}\" }}", number(published_length(muscle)), muscle.name);
+  // A line of one segment needs more sections to follow its mesh than those of several.
+  const char* level = muscle.path.size() == 2 ? "\"longitudinal_subdivision\": 3, " : "";
+  text += fmt::format("      \"source_length\": {}, {}\"mesh\": \"{}\" }}", number(published_length(muscle)), level,
+                      muscle.name);
   return text;
 }
 
@@ -61,7 +63,7 @@ bool write_character(const std::filesystem::path& file, const std::vector<Muscle
   "muscle_meshes": { "file": "muscles.glb", "bones_space": "character" },
   "mirror": { "axis": "x", "bones": [["_r", "_l"]], "names": [["_r", "_l"]] },
   "attachment_space": "bone",
-  "level": { "section_vertices": 12, "longitudinal_subdivision": 2 },
+  "level": { "section_vertices": 16, "longitudinal_subdivision": 2 },
   "specific_tension": 610000,
   "muscles": [
 )";
