@@ -206,7 +206,8 @@ double WindingField::at(const glm::dvec3& point) const {
       }
     }
   }
-  return far + near / (2.0 * std::numbers::pi);
+  const double sum = far + near / (2.0 * std::numbers::pi);
+  return std::isfinite(sum) ? sum : state_->exact(point);  // a node without extent, all but at the point
 }
 
 }  // namespace fascicle

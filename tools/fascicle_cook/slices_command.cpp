@@ -142,9 +142,11 @@ int slice(const Options& options) {
   }
   if (!analysis.slices.empty()) {
     std::string title;
-    for (const std::string& input : options.inputs) {
-      title += (title.empty() ? "" : ", ") + std::filesystem::path(input).stem().string();
+    constexpr std::size_t kMostNames = 4;
+    for (std::size_t i = 0; i < std::min(options.inputs.size(), kMostNames); ++i) {
+      title += (title.empty() ? "" : ", ") + std::filesystem::path(options.inputs[i]).stem().string();
     }
+    if (options.inputs.size() > kMostNames) title += fmt::format(" and {} more", options.inputs.size() - kMostNames);
     if (!options.csv.empty()) {
       analysis.diagnostics.append(write_text_atomically(options.csv, slices_csv(analysis.slices)));
     } else {

@@ -89,6 +89,15 @@ class Svg {
 constexpr const char* kAxis = "stroke=\"#444444\" stroke-width=\"1.2\"";
 constexpr const char* kGrid = "stroke=\"#e3e5e8\" stroke-width=\"1\"";
 
+// 1, 2 or 5 times a power of ten, so that `range` has at most `most` of them.
+double tick_step(double range, double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / most)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (range <= most * factor * power) return factor * power;
+  }
+  return 10.0 * power;
+}
+
 void draw_frame(Svg& svg, const Panel& panel, double step_x, double step_y, const char* x_label, const char* y_label) {
   const auto steps = [](double from, double to, double step, auto&& each) {
     for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; i += 1.0) each(i * step);
@@ -127,7 +136,7 @@ std::string dot_style(const char* colour, bool inside) {
 }
 
 void plot_quotients(Svg& svg, const Panel& panel, std::span<const SliceOutline* const> outlines) {
-  draw_frame(svg, panel, panel.x1 - panel.x0 > 8.0 ? 2.0 : 1.0, 0.2, "perimeter of the slice scaled to an area of 1",
+  draw_frame(svg, panel, std::max(tick_step(panel.x1 - panel.x0, 6.0), 1.0), 0.2, "perimeter of the slice scaled to an area of 1",
              "isoperimetric quotient q = 4\xCF\x80 A / P\xC2\xB2");
   svg.line(panel.left, panel.y(0.5), panel.left + panel.width, panel.y(0.5),
            "stroke=\"#777777\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"");
@@ -179,7 +188,8 @@ void plot_counts(Svg& svg, const Panel& panel, std::span<const SliceOutline* con
 }
 
 void plot_outlines(Svg& svg, const Panel& panel, std::span<const SliceOutline* const> outlines) {
-  draw_frame(svg, panel, 0.5, 0.5, "along the longer axis, in lengths of which the area is the square", "across it");
+  const double step = std::max(tick_step(panel.x1 - panel.x0, 7.0), 0.5);
+  draw_frame(svg, panel, step, step, "along the longer axis, in lengths of which the area is the square", "across it");
   const double opacity = std::clamp(25.0 / static_cast<double>(std::max<std::size_t>(outlines.size(), 1)), 0.18, 0.8);
   for (const SliceOutline* outline : outlines) {
     std::vector<glm::dvec2> points = normalise_outline(outline->loop);
@@ -218,7 +228,7 @@ std::string plot_slices(const std::string& title, std::span<const MeshSlice> sli
                        100.0 * summary.share_concave, 100.0 * summary.share_centroid_outside),
            "#444444");
 
-  plot_quotients(svg, {90, 130, 450, 520, 3.0, std::min(most_perimeter, 30.0), 0.0, 1.05}, outlines);
+  plot_quotients(svg, {90, 130, 450, 520, 3.0, most_perimeter, 0.0, 1.05}, outlines);
   plot_counts(svg, {556, 130, 110, 520, 0.0, 1.0, 0.0, 1.05}, outlines);
   plot_outlines(svg, {760, 130, 520, 520, -reach, reach, -reach, reach}, outlines);
 
@@ -230,8 +240,8 @@ std::string plot_slices(const std::string& title, std::span<const MeshSlice> sli
     x += 46.0 + 7.6 * static_cast<double>(words.size());
   };
   dot(kConvexColour, true, fmt::format("convex ({})", convex));
-  dot(kConcaveColour, true, fmt::format("concave ({})", outlines.size() - convex));
-  dot(kConcaveColour, false, fmt::format("concave, centroid outside ({})", outside));
+  dot(kConcaveColour, true, fmt::format("concave ({})", outlines.size() - convex - outside));
+  dot(kConcaveColour, false, fmt::format("concave with the centroid outside ({})", outside));
   svg.line(760, 108, 790, 108, "stroke=\"#111111\" stroke-width=\"1.6\" stroke-dasharray=\"7 5\"");
   svg.text(798, 113, 14, "start", "circle of the same area; the dot is every slice's centroid");
   return svg.finish();

@@ -59,6 +59,8 @@ TEST(WindingNumber, DegenerateTrianglesDoNotCount) {
   const WindingField points(TriangleMesh{"", {{1, 1, 1}}, {}, {0, 0, 0}});
   EXPECT_EQ(points.at(glm::dvec3(1, 1, 1)), 0.0);
   EXPECT_EQ(points.at(glm::dvec3(0, 0, 0)), 0.0);
+  const WindingField origin(TriangleMesh{"", {{0, 0, 0}}, {}, {0, 0, 0}});
+  for (const double x : {1e-300, 1e-150, 1e-110, 1e-20}) EXPECT_EQ(origin.at(glm::dvec3(x, 0, 0)), 0.0);
 }
 
 TEST(WindingNumber, OneInsideNoneOutside) {

@@ -105,6 +105,9 @@ TEST(PlotSlices, EverythingLiesInThePicture) {
     EXPECT_GE(circle.attribute("cx").as_double(), 0.0);
     EXPECT_LE(circle.attribute("cx").as_double(), width);
   }
+  int labels = 0;
+  for ([[maybe_unused]] const pugi::xml_node text : document.child("svg").children("text")) ++labels;
+  EXPECT_LT(labels, 50);
 }
 
 }  // namespace
