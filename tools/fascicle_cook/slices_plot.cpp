@@ -51,8 +51,8 @@ class Svg {
 
   void text(double x, double y, int size, const char* anchor, const std::string& words, const char* colour = "#222222",
             const char* more = "") {
-    text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>", x, y, size,
-                         anchor, colour, more);
+    text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" ", x, y, size);
+    text_ += fmt::format("text-anchor=\"{}\" fill=\"{}\"{}>", anchor, colour, more);
     text_ += escape(words) + "</text>\n";
   }
   void turned_text(double x, double y, int size, const std::string& words) {
@@ -136,8 +136,8 @@ std::string dot_style(const char* colour, bool inside) {
 }
 
 void plot_quotients(Svg& svg, const Panel& panel, std::span<const SliceOutline* const> outlines) {
-  draw_frame(svg, panel, std::max(tick_step(panel.x1 - panel.x0, 6.0), 1.0), 0.2, "perimeter of the slice scaled to an area of 1",
-             "isoperimetric quotient q = 4\xCF\x80 A / P\xC2\xB2");
+  draw_frame(svg, panel, std::max(tick_step(panel.x1 - panel.x0, 6.0), 1.0), 0.2,
+             "perimeter of the slice scaled to an area of 1", "isoperimetric quotient q = 4\xCF\x80 A / P\xC2\xB2");
   svg.line(panel.left, panel.y(0.5), panel.left + panel.width, panel.y(0.5),
            "stroke=\"#777777\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"");
 
