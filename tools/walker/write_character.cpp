@@ -1,6 +1,10 @@
 #include "tools/walker/write_character.hpp"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -17,22 +21,33 @@ std::string number(double value) {
   return text == "-0" ? "0" : text;
 }
 
+// Ends that are attached to a patch of bone rather than a point, where their meshes say so.
+constexpr std::array<std::string_view, 4> kWideOrigins{"gluteus_medius_2_r", "gluteus_medius_3_r", "adductor_magnus_2_r",
+                                                       "vastus_intermedius_r"};
+constexpr std::array<std::string_view, 1> kWideInsertions{"quadratus_femoris_r"};
+
 std::string point(const PathPoint& p, bool counts_field) {
   const bool counts = p.kind == PointKind::kPublished;
   return fmt::format(R"({{ "bone": "{}", "position": [{}, {}, {}]{} }})", p.bone, number(p.position.x),
                      number(p.position.y), number(p.position.z), counts_field && !counts ? R"(, "counts": false)" : "");
 }
 
+std::string end_point(const PathPoint& p, std::span<const std::string_view> wide, std::string_view muscle) {
+  std::string text = point(p, false);
+  if (std::ranges::find(wide, muscle) != wide.end()) text.insert(text.size() - 2, R"(, "area": { "within_mm": 4 })");
+  return text;
+}
+
 std::string muscle_text(const MuscleSpec& muscle) {
   std::string text = fmt::format("    {{ \"name\": \"{}\", \"mirror\": true,\n", muscle.name);
-  text += fmt::format("      \"origin\": {},\n", point(muscle.path.front(), false));
+  text += fmt::format("      \"origin\": {},\n", end_point(muscle.path.front(), kWideOrigins, muscle.name));
   if (muscle.path.size() > 2) {
     text += "      \"via\": [";
     for (std::size_t i = 1; i + 1 < muscle.path.size(); ++i)
       text += fmt::format("{}\n        {}", i == 1 ? "" : ",", point(muscle.path[i], true));
     text += " ],\n";
   }
-  text += fmt::format("      \"insertion\": {},\n", point(muscle.path.back(), false));
+  text += fmt::format("      \"insertion\": {},\n", end_point(muscle.path.back(), kWideInsertions, muscle.name));
   text += fmt::format(
       "      \"max_isometric_force\": {}, \"optimal_fibre_length\": {}, \"tendon_slack_length\": {}, \"pennation\": "
       "{},\n",
