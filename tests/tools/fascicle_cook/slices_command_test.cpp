@@ -1,58 +1,19 @@
 // `fascicle-cook slices` as a program: exit statuses, messages and files.
 
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-
 #include <gmock/gmock.h>
 
 #include "tests/support/shapes.hpp"
 #include "tests/support/test_data.hpp"
+#include "tests/tools/fascicle_cook/cook_command.hpp"
 
 namespace fascicle::cook {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-class SlicesCommand : public testing::Test {
+class SlicesCommand : public CookCommand {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("slices_command_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  int run(const std::string& arguments) const {
-    const std::string command = "'" FASCICLE_COOK "' slices " + arguments + " >'" + file("out") + "' 2>'" +
-                                file("err") + "' </dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  void write_obj(const std::string& name, const TriangleMesh& mesh) const {
-    std::ofstream stream(file(name));
-    for (const glm::vec3& p : mesh.positions) stream << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-      stream << "f " << mesh.indices[i] + 1 << ' ' << mesh.indices[i + 1] + 1 << ' ' << mesh.indices[i + 2] + 1 << '\n';
-    }
-  }
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-  std::string out() const { return read(file("out")); }
-  std::string err() const { return read(file("err")); }
-
-  fs::path folder_;
+  int run(const std::string& arguments) const { return CookCommand::run("slices " + arguments); }
 };
 
 TEST_F(SlicesCommand, WrongUsage) {
@@ -105,8 +66,8 @@ TEST_F(SlicesCommand, ABoxInMillimetres) {
                 "'"),
             0)
       << err();
-  EXPECT_THAT(read(file("a.csv")), HasSubstr("\nbox,0.5,0,1,200,60,0.698132,"));
-  EXPECT_THAT(read(file("a.svg")), HasSubstr("Slices of box"));
+  EXPECT_THAT(read("a.csv"), HasSubstr("\nbox,0.5,0,1,200,60,0.698132,"));
+  EXPECT_THAT(read("a.svg"), HasSubstr("Slices of box"));
   EXPECT_EQ(err(), "");
 }
 
