@@ -8,7 +8,6 @@
 #include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 
-#include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/ray_reference.hpp"
 
 namespace fascicle {
@@ -101,12 +100,13 @@ struct RayScene::Impl {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> indices;
   TriangleMesh plain;
+  Bounds bounds;
   glm::vec3 middle{0.0f};
   float reach = 0.0f;  // m, from the middle, a little beyond the mesh
   float same_place = 0.0f;
 
-  explicit Impl(const TriangleMesh& mesh) {
-    const Bounds bounds = mesh_bounds(mesh);
+  void set_bounds(const Bounds& of_mesh) {
+    bounds = of_mesh;
     middle = 0.5f * (bounds.lower + bounds.upper);
     reach = 0.51f * bounds.diagonal();
     same_place = kSamePlace * bounds.diagonal();
@@ -140,7 +140,8 @@ struct RayScene::Impl {
 
   // Sideways, in a direction of no meaning.
   Line shifted(const Line& line, int shift) const {
-    const glm::vec3 axis = std::abs(line.direction.x) < 0.6f ? glm::vec3(1.0f, 0.3f, 0.2f) : glm::vec3(0.2f, 1.0f, 0.3f);
+    const glm::vec3 axis =
+        std::abs(line.direction.x) < 0.6f ? glm::vec3(1.0f, 0.3f, 0.2f) : glm::vec3(0.2f, 1.0f, 0.3f);
     const glm::vec3 sideways = glm::normalize(glm::cross(line.direction, axis));
     return {line.origin + (kShift * 2.0f * reach * static_cast<float>(shift)) * sideways, line.direction};
   }
@@ -199,7 +200,7 @@ struct RayScene::Impl {
   }
 };
 
-RayScene::RayScene(const RayDevice& device, const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {
+RayScene::RayScene(const RayDevice& device, const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) {
   impl_->positions = mesh.positions;
   impl_->indices = mesh.indices;
   const RTCDevice embree = device.impl_->device;
@@ -222,12 +223,19 @@ RayScene::RayScene(const RayDevice& device, const TriangleMesh& mesh) : impl_(st
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(impl_->scene);
+  if (mesh.indices.empty()) return;
+  RTCBounds bounds;
+  rtcGetSceneBounds(impl_->scene, &bounds);
+  impl_->set_bounds({{bounds.lower_x, bounds.lower_y, bounds.lower_z}, {bounds.upper_x, bounds.upper_y, bounds.upper_z}});
 }
 
-RayScene::RayScene(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {
+RayScene::RayScene(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) {
   impl_->plain = mesh;
   impl_->indices = mesh.indices;
+  impl_->set_bounds(mesh_bounds(mesh));
 }
+
+const Bounds& RayScene::bounds() const { return impl_->bounds; }
 
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
@@ -246,8 +254,14 @@ void RayScene::cast(std::span<const Line> lines, std::span<LineExtremes> extreme
     const std::array<float, kPacket> starts = impl_->cast_packet(lines.subspan(first, count), context);
     for (std::size_t i = 0; i < count; ++i) {
       extremes[first + i] = impl_->extremes_of(context, i, starts[i]);
-      if (context.balances[i] != 0 || context.counts[i] == 0) doubtful.push_back(static_cast<std::uint32_t>(first + i));
+      if (context.balances[i] != 0) doubtful.push_back(static_cast<std::uint32_t>(first + i));
     }
+  }
+  // Among lines beside each other, one that misses between such as hit.
+  const auto misses = [&](std::size_t i) { return extremes[i].crossings == 0; };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const bool beside_hit = (i > 0 && !misses(i - 1)) || (i + 1 < lines.size() && !misses(i + 1)) || lines.size() == 1;
+    if (misses(i) && beside_hit) doubtful.push_back(static_cast<std::uint32_t>(i));
   }
 
   std::array<Line, kPacket> shifted;

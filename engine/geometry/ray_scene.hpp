@@ -13,7 +13,8 @@
 // Embree visits each line once, 16 at a time, through a filter function that records and rejects. Its robust
 // traversal lets no line slip between two triangles that share an edge; such a crossing may be seen twice, which
 // extremes do not mind and which `cast_all` takes out. Through a vertex, to rounding, a line may still slip: lines that
-// enter the mesh and leave it unequally often, or not at all, are cast again, shifted by millionths of its size.
+// enter the mesh and leave it unequally often, or miss it beside lines that hit, are cast again, shifted by millionths
+// of its size.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/content/triangle_mesh.hpp"
+#include "engine/geometry/mesh_measures.hpp"
 
 namespace fascicle {
 
@@ -38,8 +40,8 @@ struct LineExtremes {
   float first_entry = std::numeric_limits<float>::infinity();  // m; infinity: none
   float last_exit = -std::numeric_limits<float>::infinity();   // m; minus infinity: none
   std::uint32_t crossings = 0;  // at least as many as there are: those at shared edges may count twice
-  // The line leaves before it enters, or enters after it leaves: some of the mesh is inside out. Extremes that count are
-  // then anybody's guess.
+  // The line leaves before it enters, or enters after it leaves: some of the mesh is inside out. What counts then is
+  // for others to say (modules/muscle/asset/fit/fit_surface.hpp).
   bool backwards = false;
 };
 
@@ -75,12 +77,15 @@ class RayScene {
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
+  // Of the mesh; zero for one without triangles.
+  const Bounds& bounds() const;
+
   // One result a line. A mesh without triangles gives no hits. Lines of one call are cast in packets of 16, so
   // neighbours should resemble each other.
   void cast(std::span<const Line> lines, std::span<LineExtremes> extremes) const;
 
-  // Every crossing of line i, by rising t, in crossings[starts[i]] .. crossings[starts[i + 1]]. Crossings of neighbouring
-  // triangles at one place (a shared edge or vertex) that face the same way are given once.
+  // Every crossing of line i, by rising t, in crossings[starts[i]] .. crossings[starts[i + 1]]. Crossings of
+  // neighbouring triangles at one place (a shared edge or vertex) that face the same way are given once.
   void cast_all(std::span<const Line> lines, std::vector<std::uint32_t>& starts,
                 std::vector<LineCrossing>& crossings) const;
 

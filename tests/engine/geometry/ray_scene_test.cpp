@@ -55,7 +55,8 @@ std::optional<float> radius_by_rules(const std::vector<LineCrossing>& crossings,
 }
 
 TriangleMesh hard_mesh() {  // a ring and two balls that overlap it
-  return test::join(test::join(test::make_torus(0.5f, 0.15f, 40, 24), test::make_sphere(0.3f, 12, 20, {0.5f, 0.1f, 0.0f})),
+  const TriangleMesh ring = test::make_torus(0.5f, 0.15f, 40, 24);
+  return test::join(test::join(ring, test::make_sphere(0.3f, 12, 20, {0.5f, 0.1f, 0.0f})),
                     test::make_sphere(0.2f, 10, 16, {-0.4f, 0.2f, 0.3f}));
 }
 

@@ -18,9 +18,7 @@ std::uint64_t mixed(std::uint32_t from, std::uint32_t to) {
   return h ^ (h >> 29);
 }
 
-}  // namespace
-
-bool is_sound(const TriangleMesh& mesh) {
+bool is_sound(const TriangleMesh& mesh, double size) {
   for (const glm::vec3& p : mesh.positions) {
     if (!std::isfinite(p.x + p.y + p.z)) return false;
   }
@@ -29,16 +27,21 @@ bool is_sound(const TriangleMesh& mesh) {
     const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
     sides += mixed(a, b) + mixed(b, c) + mixed(c, a) - mixed(b, a) - mixed(c, b) - mixed(a, c);
   }
-  const double size = double{mesh_bounds(mesh).diagonal()};
   return sides == 0 && mesh_volume(mesh) > kLeastVolume * size * size * size;
 }
 
+}  // namespace
+
+bool is_sound(const TriangleMesh& mesh) { return is_sound(mesh, double{mesh_bounds(mesh).diagonal()}); }
+
 CheckedMesh check_mesh(const TriangleMesh& mesh) {
   CheckedMesh checked;
-  checked.sound = is_sound(mesh);
+  checked.size = double{mesh_bounds(mesh).diagonal()};
+  checked.sound = is_sound(mesh, checked.size);
   if (checked.sound) return checked;
   CleanMesh clean = clean_mesh(mesh);
-  checked.sound = is_sound(clean.mesh);
+  checked.size = double{mesh_bounds(clean.mesh).diagonal()};
+  checked.sound = is_sound(clean.mesh, checked.size);
   checked.defects = clean.defects.to_text();
   checked.source_triangles = std::move(clean.source_triangles);
   checked.mended = std::move(clean.mesh);

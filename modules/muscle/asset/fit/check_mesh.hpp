@@ -20,6 +20,7 @@ bool is_sound(const TriangleMesh& mesh);
 struct CheckedMesh {
   std::optional<TriangleMesh> mended;            // nothing: the mesh as it is
   std::vector<std::uint32_t> source_triangles;   // of the mended one's
+  double size = 0.0;                             // m, diagonal of the bounds
   bool sound = false;
   std::string defects;                           // what was wrong, in words; empty: nothing
 };

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/clean_mesh.hpp"
-#include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/ray_scene.hpp"
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/check_descriptions.hpp"
@@ -60,8 +59,8 @@ double length_of(std::span<const glm::dvec3> points) {
 }
 
 // True where the mesh is of the line's size; else it says so.
-bool check_size(const FitInput& input, const TriangleMesh& mesh, double line_length, FittedMuscle& fitted) {
-  const double size = double{mesh_bounds(mesh).diagonal()}, factor = size / line_length;
+bool check_size(const FitInput& input, double size, double line_length, FittedMuscle& fitted) {
+  const double factor = size / line_length;
   if (factor <= kWrongUnit && factor >= 1.0 / kWrongUnit) return true;
   const UnitGuess guess = guess_unit(factor);
   warn(input,
@@ -71,7 +70,7 @@ bool check_size(const FitInput& input, const TriangleMesh& mesh, double line_len
   return false;
 }
 
-// The attachment area at an end, in the mesh as it was mended. Triangles that are not there, or no longer, are left out.
+// The attachment area at an end, in the mesh as it was mended. Triangles that are not there are left out.
 TriangleMesh find_area(const FitInput& input, const CheckedMesh& checked, const TriangleMesh& mesh, std::size_t end) {
   std::vector<std::uint32_t> triangles = input.areas[end];
   if (triangles.empty()) return {};
@@ -100,7 +99,7 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
          fmt::format("give another mesh; {}", kUnfitted), fitted);
     return fitted;
   }
-  if (!check_size(input, mesh, length_of(points), fitted)) return fitted;
+  if (!check_size(input, checked.size, length_of(points), fitted)) return fitted;
   const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), checked.sound,
                            region);
   const glm::dmat3 origin_bone{

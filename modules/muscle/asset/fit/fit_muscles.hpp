@@ -8,6 +8,18 @@
 //   inner_point      a point inside the slice, from the matches               2.2
 //   fit_line         two sweeps over one line's sections                      2.3
 //   fit_muscles      checks of the meshes, one muscle after the other         this file
+//
+// Beyond the papers:
+//
+//   check_mesh       what is wrong with a mesh, and which unit it is in
+//   fit_surface      what is inside along a line, of defective meshes by winding number
+//   section_slice    planes that cut the mesh in several loops
+//   outside_section  sections whose centres the model has outside of the mesh
+//   unfold_sections  planes that cross inside a bend
+//   head_region      several action lines in one mesh
+//   end_area         wide attachments
+//   fill_misses      rays that found nothing
+//   compare_fit      how well it went, independent of all of this
 #pragma once
 
 #include <array>

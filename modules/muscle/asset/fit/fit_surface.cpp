@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/winding_number.hpp"
 #include "modules/muscle/asset/fit/head_region.hpp"
 
@@ -28,7 +27,7 @@ struct FitSurface::Winding {
 
 FitSurface::FitSurface(const TriangleMesh& mesh, RayScene scene, bool sound, const HeadRegion* region)
     : mesh_(mesh), scene_(std::move(scene)), region_(region), sound_(sound), winding_(std::make_unique<Winding>()) {
-  const Bounds bounds = mesh_bounds(mesh);
+  const Bounds& bounds = scene_.bounds();
   middle_ = 0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper));
   reach_ = 0.51 * double{bounds.diagonal()};
 }

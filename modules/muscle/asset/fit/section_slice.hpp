@@ -41,7 +41,8 @@ SectionSlice slice_of(std::vector<glm::dvec2> points);
 
 // Which slice of each section continues best along the line: the chain with the least sum of squared distances between
 // the neighbours' centroids, squared differences of their sizes (roots of area), and squared distances from each
-// section's centre to its slice. By section; candidates[k] may be empty: then chosen[k] is -1 and the chain passes over.
+// section's centre to its slice. By section; candidates[k] may be empty: then chosen[k] is -1 and the chain passes
+// over it.
 std::vector<int> choose_slices(std::span<const SectionFrame> frames,
                                std::span<const std::vector<SectionSlice>> candidates);
 

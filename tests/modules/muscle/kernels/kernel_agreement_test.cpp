@@ -76,6 +76,33 @@ TEST_P(KernelAgreement, InstructionSetsGiveTheSameBits) {
   }
 }
 
+// Ends on areas are a matter of their own muscles, not of those beside them.
+TEST_P(KernelAgreement, EndsOnAreasLeaveOtherMusclesTheirBits) {
+  const std::vector<MuscleDescription> muscles =
+      test::synthetic_muscles(GetParam().section_vertices, GetParam().subdivision);
+  std::vector<MuscleFit> fits(muscles.size());
+  for (std::size_t m = 0; m < fits.size(); m += 5) {
+    fits[m].end_normals = {glm::vec3(0, -0.8f, 0.6f), glm::vec3(0, -1, 0)};
+  }
+  const auto with = build_muscle_asset(muscles, test::rest_bones(), fits);
+  const auto without = build_muscle_asset(muscles, test::rest_bones());
+  ASSERT_TRUE(with.ok() && without.ok());
+  MuscleState a(*with), b(*without);
+  for (int frame = 0; frame < 6; ++frame) {
+    const std::vector<glm::mat4> bones = test::walk_bones(static_cast<float>(frame) / 6.0f);
+    a.step(mtu_kernels(detect_simd()), bones, frame == 0);
+    b.step(mtu_kernels(detect_simd()), bones, frame == 0);
+    for (std::uint32_t m = 0; m < muscles.size(); ++m) {
+      if (m % 5 == 0) continue;
+      ASSERT_EQ(a.twist(m), b.twist(m));
+      for (std::uint32_t k = 0; k < (*with)->muscles[m].section_count; ++k) {
+        ASSERT_EQ(a.u(m, k), b.u(m, k)) << m << " " << k;
+        ASSERT_EQ(a.v(m, k), b.v(m, k)) << m << " " << k;
+      }
+    }
+  }
+}
+
 TEST_P(KernelAgreement, ReferenceGivesTheSameNumbers) {
   const auto asset = build(GetParam());
   MuscleState fast(asset), plain(asset);

@@ -270,7 +270,8 @@ TEST(FitMuscles, AUniformScaleOfEverythingScalesTheFit) {
 }
 
 TEST(FitMuscles, TheNumberOfWorkersChangesNoBit) {
-  const TriangleMesh curved = banana(), c = make_tube([](double) { return c_shape({0, 0}, 0.03, 0.006, 1.0); }, 0.3, 10);
+  const TriangleMesh curved = banana();
+  const TriangleMesh c = make_tube([](double) { return c_shape({0, 0}, 0.03, 0.006, 1.0); }, 0.3, 10);
   const std::vector<MuscleDescription> muscles(
       24, line_muscle({{0.004f, 0.001f, 0}, {0.296f, 0, 0.002f}}, 12, 3));
   std::vector<TriangleMesh> meshes;

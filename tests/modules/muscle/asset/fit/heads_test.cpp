@@ -54,7 +54,8 @@ struct Heads {
 };
 
 Heads flat_muscle() {
-  Heads heads{make_tube([](double s) { return ellipse({0.0, 0.0}, 0.04 + 0.01 * std::sin(3.0 * s), 0.015); }, 0.3, 20), {}};
+  const auto outline = [](double s) { return ellipse({0.0, 0.0}, 0.04 + 0.01 * std::sin(3.0 * s), 0.015); };
+  Heads heads{make_tube(outline, 0.3, 20), {}};
   for (const float y : {0.02f, -0.02f}) heads.muscles.push_back(line_muscle({{0.002f, y, 0}, {0.298f, y, 0}}, 36, 3));
   return heads;
 }
@@ -66,7 +67,8 @@ Heads biceps() {
   };
   Heads heads{test::join(head(1.0), head(-1.0)), {}};
   for (const float side : {1.0f, -1.0f}) {
-    heads.muscles.push_back(line_muscle({{0.002f, side * 0.0297f, 0}, {0.2f, side * 0.004f, 0}, {0.298f, side * 0.001f, 0}}, 36, 3));
+    heads.muscles.push_back(line_muscle(
+        {{0.002f, side * 0.0297f, 0}, {0.2f, side * 0.004f, 0}, {0.298f, side * 0.001f, 0}}, 36, 3));
   }
   return heads;
 }

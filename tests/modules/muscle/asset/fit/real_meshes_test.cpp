@@ -1,5 +1,5 @@
-// Anatomical meshes (mm) fitted along straight lines: from 1 % of the mesh's length inside one end of its principal axis
-// to 1 % inside the other, at each end where the slice is deepest. Both meshes bend: the straight line leaves them.
+// Anatomical meshes (mm) fitted along straight lines: from 1 % of the mesh's length inside one end of its principal
+// axis to 1 % inside the other, at each end where the slice is deepest. Both meshes bend: the straight line leaves them.
 
 #include <memory>
 

@@ -66,8 +66,8 @@ TEST(RestFrames, AreThoseOfTheBuiltMuscleWhenItsEndsLieOnAreas) {
 TEST(RestFrames, ZeroLengthAndHairpinsStayFinite) {
   std::vector<SectionFrame> frames;
   for (const std::vector<glm::dvec3>& points :
-       {std::vector<glm::dvec3>{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, std::vector<glm::dvec3>{{0, 0, 0}, {0, 1, 0}, {0, 0, 0}},
-        std::vector<glm::dvec3>{{0, 0, 0}, {0, 0, 1}}}) {
+       {std::vector<glm::dvec3>{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
+        std::vector<glm::dvec3>{{0, 0, 0}, {0, 1, 0}, {0, 0, 0}}, std::vector<glm::dvec3>{{0, 0, 0}, {0, 0, 1}}}) {
     rest_frames(points, glm::dmat3(1.0), {}, frames);
     for (const SectionFrame& frame : frames) {
       EXPECT_NEAR(glm::length(frame.u), 1.0, 1e-12);
