@@ -13,7 +13,7 @@
 namespace fascicle {
 namespace {
 
-constexpr std::uint32_t kPacket = 16;
+constexpr std::uint32_t kPacket = 8;
 // A line in doubt is cast again, so many times, shifted sideways by so much more of the mesh's size each time.
 constexpr int kShifts = 3;
 constexpr float kShift = 2.0e-6f;
@@ -115,7 +115,7 @@ struct RayScene::Impl {
     if (scene != nullptr) rtcReleaseScene(scene);
   }
 
-  // Up to 16 lines, each from before the mesh; gives back where each began, from where its hits count.
+  // Up to 8 lines, each from before the mesh; gives back where each began, from where its hits count.
   std::array<float, kPacket> cast_packet(std::span<const Line> lines, ExtremesContext& context) const {
     context.entries.fill(LineExtremes{}.first_entry);
     context.exits.fill(LineExtremes{}.last_exit);
@@ -147,7 +147,7 @@ struct RayScene::Impl {
   }
 
   std::array<float, kPacket> intersect(std::span<const Line> lines, RTCIntersectContext& context) const {
-    RTCRayHit16 packet;
+    RTCRayHit8 packet;
     std::array<float, kPacket> starts{};
     alignas(64) std::array<int, kPacket> valid{};
     for (std::uint32_t i = 0; i < kPacket; ++i) {
@@ -170,7 +170,7 @@ struct RayScene::Impl {
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid.data(), scene, &context, &packet);
+    rtcIntersect8(valid.data(), scene, &context, &packet);
     return starts;
   }
 
