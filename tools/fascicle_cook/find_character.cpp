@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include "engine/content/closest_name.hpp"
+#include "engine/content/length_unit.hpp"
+#include "engine/content/mesh_reader.hpp"
 #include "modules/muscle/content/find_content.hpp"
 
 namespace fascicle::cook {
@@ -43,6 +45,20 @@ Result<fs::path> find_character(const std::string& name_or_path) {
   const std::vector<std::string> known = known_characters();
   return Diagnostic{name_or_path, 0, 0, {}, "no such character, nor such a file",
                     suggest_name(name_or_path, std::span<const std::string>(known), "characters")};
+}
+
+std::optional<std::string> as_mesh_reference(const std::string& input) {
+  constexpr std::string_view kData = "data:";
+  const std::string path =
+      input.starts_with(kData) ? (muscle::find_data_folder() / input.substr(kData.size())).string() : input;
+  if (!is_mesh_file(split_mesh_reference(path).file)) return std::nullopt;
+  return path;
+}
+
+std::vector<std::string> length_unit_names() {
+  std::vector<std::string> names;
+  for (const LengthUnit& unit : kLengthUnits) names.emplace_back(unit.name);
+  return names;
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) {

@@ -12,9 +12,8 @@
 
 #include "engine/content/closest_name.hpp"
 #include "engine/content/file_text.hpp"
-#include "engine/content/mesh_reader.hpp"
+#include "engine/content/length_unit.hpp"
 #include "modules/muscle/content/character_asset.hpp"
-#include "modules/muscle/content/find_content.hpp"
 #include "tools/fascicle_cook/commands.hpp"
 #ifdef FASCICLE_COOK_DRAWS
 #include "tools/fascicle_cook/draw_fit.hpp"
@@ -39,27 +38,12 @@ struct Options {
   std::uint32_t supersampling = 3;
 };
 
-float metres_of(const std::string& unit) {
-  if (unit == "mm") return 0.001f;
-  if (unit == "cm") return 0.01f;
-  if (unit == "in") return 0.0254f;
-  return unit == "ft" ? 0.3048f : 1.0f;
-}
-
 // Writes a file that was asked for; false where that failed, which has been said.
 bool write_file(const std::string& file, const std::string& text) {
   const Diagnostics written = write_text_atomically(file, text);
   print_diagnostics(written);
   if (written.ok()) fmt::print("wrote {}\n", file);
   return written.ok();
-}
-
-// A mesh file where a character was expected: `data:` stands for the data folder.
-std::optional<std::string> as_mesh_file(const std::string& source) {
-  std::string path = source;
-  if (path.starts_with("data:")) path = (muscle::find_data_folder() / path.substr(5)).string();
-  if (!is_mesh_file(split_mesh_reference(path).file)) return std::nullopt;
-  return path;
 }
 
 // What is fitted, and where its fits are to be stored (a character's).
@@ -69,8 +53,8 @@ struct Source {
 };
 
 std::optional<Source> load(const Options& options) {
-  if (const std::optional<std::string> mesh = as_mesh_file(options.source)) {
-    const auto made = make_mesh_character(*mesh, {.unit = metres_of(options.unit),
+  if (const std::optional<std::string> mesh = as_mesh_reference(options.source)) {
+    const auto made = make_mesh_character(*mesh, {.unit = metres_of(options.unit).value_or(1.0f),
                                                   .section_vertices = options.section_vertices.value_or(36),
                                                   .longitudinal_subdivision = options.longitudinal_subdivision.value_or(3),
                                                   .supersampling = options.supersampling});
@@ -192,7 +176,7 @@ void add_fit(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(0, 6));
   command->add_option("--supersampling", options->supersampling, "CSS of a mesh file's fit (3)")->check(CLI::Range(1, 16));
   command->add_option("--unit", options->unit, "The unit of a mesh file (m)")
-      ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
+      ->check(CLI::IsMember(length_unit_names()));
   command->callback([options, &chosen] { chosen = [options] { return fit(*options); }; });
 }
 

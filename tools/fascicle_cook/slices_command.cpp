@@ -17,6 +17,7 @@
 #include "engine/content/closest_name.hpp"
 #include "engine/content/file_text.hpp"
 #include "engine/content/mesh_reader.hpp"
+#include "engine/content/length_unit.hpp"
 #include "engine/geometry/clean_mesh.hpp"
 #include "engine/geometry/slice_analysis.hpp"
 #include "modules/muscle/content/character_asset.hpp"
@@ -34,9 +35,6 @@ struct Options {
   std::string unit = "m";
   std::string csv, svg;
 };
-
-constexpr std::array<std::pair<const char*, float>, 5> kUnits = {
-    {{"m", 1.0f}, {"cm", 0.01f}, {"mm", 0.001f}, {"in", 0.0254f}, {"ft", 0.3048f}}};
 
 struct Analysis {
   std::vector<MeshSlice> slices;
@@ -128,14 +126,11 @@ void analyse_character(const std::string& name, std::span<const double> fraction
 }
 
 int slice(const Options& options) {
-  float unit = 1.0f;
-  for (const auto& [name, metres] : kUnits) {
-    if (options.unit == name) unit = metres;
-  }
+  const float unit = metres_of(options.unit).value_or(1.0f);
   Analysis analysis;
   for (const std::string& input : options.inputs) {
-    if (is_mesh_file(split_mesh_reference(input).file)) {
-      analyse_file(input, unit, options.fractions, analysis);
+    if (const std::optional<std::string> mesh = as_mesh_reference(input)) {
+      analyse_file(*mesh, unit, options.fractions, analysis);
     } else {
       analyse_character(input, options.fractions, analysis);
     }
@@ -175,9 +170,7 @@ void add_slices(CLI::App& program, Command& chosen) {
   command->add_option("--at", options->fractions, "Where along the length, as fractions (0.25,0.5,0.75)")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1.0));
-  std::vector<std::string> units;
-  for (const auto& [name, metres] : kUnits) units.emplace_back(name);
-  command->add_option("--unit", options->unit, "The unit of mesh files' numbers (m)")->check(CLI::IsMember(units));
+  command->add_option("--unit", options->unit, "The unit of mesh files' numbers (m)")->check(CLI::IsMember(length_unit_names()));
   command->add_option("--csv", options->csv, "Write the slices to this file, a loop a line, in place of the table");
   command->add_option("--svg", options->svg,
                       "Write a plot to this file: quotient against perimeter, and the outlines overlaid");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/content/length_unit.hpp"
 #include "modules/muscle/asset/muscle_limits.hpp"
 
 namespace fascicle::muscle {
@@ -100,9 +101,11 @@ void read_placement(JsonObject& object, Trs& transform) {
 }
 
 void read_unit(JsonObject& object, float& unit) {
-  constexpr float kMetres[] = {1.0f, 0.01f, 0.001f, 0.0254f, 0.3048f};
+  constexpr auto name = [](std::size_t i) { return kLengthUnits[i].name; };
   std::size_t choice = 0;
-  if (object.optional_choice("unit", choice, {"m", "cm", "mm", "in", "ft"})) unit = kMetres[choice];
+  if (object.optional_choice("unit", choice, {name(0), name(1), name(2), name(3), name(4)})) {
+    unit = kLengthUnits[choice].metres;
+  }
 }
 
 CharacterFile read_character_file(const JsonNode& root, const ReadContext& context) {
