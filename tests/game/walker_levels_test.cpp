@@ -63,7 +63,7 @@ TEST(WalkerLevels, AnExchangeChangesLessThanAPixelInAWalk) {
       for (LeveledState* state : {&plain, &fine, &coarse}) step(*state, bones);
       const SurfaceGap morphed(fine, coarse), abrupt(plain, coarse);
       EXPECT_LT(morphed.percentile(0.99f), 0.25f * pixel) << "level " << level << ", pose " << pose;
-      EXPECT_LT(morphed.max(), 2.0f * pixel) << "level " << level << ", pose " << pose;
+      EXPECT_LT(morphed.max(), pixel) << "level " << level << ", pose " << pose;
       EXPECT_LT(morphed.rms(), 0.2f * abrupt.rms());
     }
   }

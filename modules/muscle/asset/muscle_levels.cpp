@@ -275,12 +275,30 @@ double section_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, dou
                       (j + 1.0 - turn) * step);
 }
 
+// The radius at `turn` of a section that both levels have: a vertex that comes to lie within `reach` of one of the
+// coarser section's goes as near to it as it can, lest a spike be cut off; all others go onto its sides.
+double kept_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, double turn, double reach) {
+  const double corner = std::round(turn), off = turn - corner;
+  if (std::abs(off) >= reach) return section_radius(coarse, m, K, turn);
+  const double step = 2.0 * kPi / coarse.asset.muscles[m].section_vertices;
+  return std::cos(off * step) * coarse.radius(m, K, static_cast<std::uint32_t>(corner));
+}
+
+// The place on a section at `turn`.
+glm::dvec3 section_place(const Level& coarse, std::uint32_t m, std::uint32_t K, double turn) {
+  const double angle = 2.0 * kPi * turn / coarse.asset.muscles[m].section_vertices;
+  return coarse.centre(m, K) +
+         section_radius(coarse, m, K, turn) * (std::cos(angle) * coarse.u(m, K) + std::sin(angle) * coarse.v(m, K));
+}
+
 // The radius that leads from `centre`, between coarse sections K and K + 1, along `direction` onto the surface between
-// them, where it lies about `turn` vertices after vertex 0. Where nothing is met: the mean of the two sections'.
+// them, where it lies about `turn` vertices after vertex 0. Where nothing is met (beside an oblique end): nearest to
+// the middle of the two sections' places.
 double strip_radius(const Level& coarse, std::uint32_t m, std::uint32_t K, double turn, const glm::dvec3& centre,
                     const glm::dvec3& direction) {
   const std::uint32_t count = coarse.asset.muscles[m].section_vertices;
-  const double expected = 0.5 * (section_radius(coarse, m, K, turn) + section_radius(coarse, m, K + 1, turn));
+  const glm::dvec3 middle = 0.5 * (section_place(coarse, m, K, turn) + section_place(coarse, m, K + 1, turn));
+  const double expected = glm::dot(middle - centre, direction);
   double best = expected, best_off = std::numeric_limits<double>::infinity();
   const std::uint32_t side = static_cast<std::uint32_t>(turn) + count;
   for (std::uint32_t i = side - 1; i <= side + 1; ++i) {
@@ -320,7 +338,7 @@ void morph_radii(const Level& fine, const Level& coarse, LevelMorph& morph) {
         turn -= coarse_count * std::floor(turn / coarse_count);
         const glm::dvec3 direction = fine.along(m, i, u, v);
         const double r = place.between ? strip_radius(coarse, m, place.section, turn, centre, direction)
-                                       : section_radius(coarse, m, place.section, turn);
+                                       : kept_radius(coarse, m, place.section, turn, 0.5 * coarse_count / count);
         radii[i] = static_cast<float>(r);
         const double moved = glm::dot(centre + r * direction - fine.vertex(m, k, i), direction);
         moves.push_back(static_cast<float>(std::abs(moved)));
