@@ -10,11 +10,11 @@
 // vertex looks along -e from the same centre, so its new radius is -t of the entry with the smallest t. Initial radii
 // thus need not be chosen at all. (`ray_scene_test` holds this to the rules taken literally.)
 //
-// Embree visits each line once, 8 at a time (of 1, 4, 8, 16 and streams the fastest here), through a filter function that records and rejects. Its robust
-// traversal lets no line slip between two triangles that share an edge; such a crossing may be seen twice, which
-// extremes do not mind and which `cast_all` takes out. Through a vertex, to rounding, a line may still slip: lines that
-// enter the mesh and leave it unequally often, or miss it beside lines that hit, are cast again, shifted by millionths
-// of its size.
+// Embree visits each line once, 8 at a time (packets of 1, 4 and 16 and streams were slower), through a filter function
+// that records and rejects. Its robust traversal lets no line slip between two triangles that share an edge; such a
+// crossing may be seen twice, which extremes do not mind and which `cast_all` takes out. Through a vertex, to rounding,
+// a line may still slip: lines that enter the mesh and leave it unequally often, or miss it beside lines that hit, are
+// cast again, shifted by millionths of its size.
 #pragma once
 
 #include <cstdint>

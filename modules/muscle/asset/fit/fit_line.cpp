@@ -18,6 +18,8 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr int kMoreRescues = 4;
+
 bool lies_inside(double t, std::span<const InsideInterval> intervals) {
   return std::ranges::any_of(intervals, [&](const InsideInterval& i) { return i.from < t && t < i.to; });
 }
@@ -65,12 +67,19 @@ class LineFitter {
   void find_radii(std::uint32_t section_vertices) {
     cast(section_vertices);
     if (options_.rescue) choose_slices_of_centres();
+    // Planes that the moved neighbours turned may cut the mesh where they missed it before.
+    for (int round = 0; options_.rescue && round < kMoreRescues && rescue_centres(); ++round) {
+      lay_ends_on_areas();
+      cast(section_vertices);
+      choose_slices_of_centres();
+    }
+    const bool met = std::ranges::count(rays_.hits, 1) > 0;
     for (const std::size_t k : {std::size_t{0}, frames_.size() - 1}) {
       if (const TriangleMesh* area = area_of(k)) cast_area(*area, frames_[k], k, directions_, rays_);
     }
     report();
     if (options_.rescue && surface_.has_plain_slices()) shape_outside_sections();
-    fit_.any_hit = std::ranges::count(rays_.hits, 1) > 0;
+    fit_.any_hit = met && std::ranges::count(rays_.hits, 1) > 0;
     if (!fit_.any_hit) return;
     std::vector<double> arcs(points_.size(), 0.0);
     for (std::size_t k = 1; k < arcs.size(); ++k) {
@@ -204,8 +213,8 @@ class LineFitter {
     }
   }
 
-  // Centres that are still outside though their planes cut the mesh go deep into the slice.
-  void rescue_centres() {
+  // Centres that are still outside though their planes cut the mesh go deep into the slice. False: there were none.
+  bool rescue_centres() {
     std::vector<std::size_t> sections;
     for (std::size_t k = 0; k < frames_.size(); ++k) {
       if (!options_.restore_ends || (k > 0 && k + 1 < frames_.size())) sections.push_back(k);
@@ -220,13 +229,16 @@ class LineFitter {
     std::vector<std::uint32_t> starts;
     std::vector<InsideInterval> intervals;
     surface_.find_inside(lines, starts, intervals);
+    bool any = false;
     for (std::size_t i = 0; i < sections.size(); ++i) {
       if (lies_inside(0.0, std::span(intervals).subspan(starts[i], starts[i + 1] - starts[i]))) continue;
       if (const std::optional<glm::dvec2> at = find_depth(sections[i])) {
         fit_.centres[sections[i]] = place(frames_[sections[i]], *at);
         fit_.sections[sections[i]].rescued = true;
+        any = true;
       }
     }
+    return any;
   }
 
   // A point inside the mesh in the section's plane, if there is any.
