@@ -72,14 +72,7 @@ void append_muscle_json(const FitReport& report, std::size_t i, std::string& out
     fmt::format_to(to, "{}{}", k == 0 ? "" : ", ", quote_json(warnings[k].cause + "; " + warnings[k].remedy));
   }
   out += "],\n      \"sections\": [";
-  for (std::size_t k = 0; k < level.fitted.sections.size(); ++k) {
-    const SectionReport& section = level.fitted.sections[k];
-    fmt::format_to(to,
-                   "{}\n        {{ \"hits\": {}, \"misses\": {}, \"matches\": {}, \"loops\": {}, \"moved\": {:.6g}, "
-                   "\"inside\": {}, \"rescued\": {}, \"outcome\": \"{}\" }}",
-                   k == 0 ? "" : ",", section.hits, section.misses, section.matches, section.loops, section.moved,
-                   section.inside, section.rescued, name_of(section.outcome));
-  }
+  append_json(level.fitted.sections, out);
   out += "] }";
 }
 

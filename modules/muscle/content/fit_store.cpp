@@ -142,20 +142,24 @@ void append_level(const FittedLevel& level, std::string& out) {
     out += "],";
   }
   out += "\n        \"sections\": [";
-  for (std::size_t k = 0; k < level.fitted.sections.size(); ++k) {
-    const SectionReport& section = level.fitted.sections[k];
-    fmt::format_to(to,
-                   "{}\n          {{ \"hits\": {}, \"misses\": {}, \"matches\": {}, \"loops\": {}, \"moved\": {}, "
-                   "\"inside\": {}, \"rescued\": {}, \"outcome\": \"{}\" }}",
-                   k == 0 ? "" : ",", section.hits, section.misses, section.matches, section.loops, section.moved,
-                   section.inside, section.rescued, name_of(section.outcome));
-  }
+  append_json(level.fitted.sections, out);
   out += "] }";
 }
 
 }  // namespace
 
 std::string_view name_of(SectionOutcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
+
+void append_json(std::span<const SectionReport> sections, std::string& out) {
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const SectionReport& section = sections[k];
+    fmt::format_to(std::back_inserter(out),
+                   "{}\n          {{ \"hits\": {}, \"misses\": {}, \"matches\": {}, \"loops\": {}, \"moved\": {}, "
+                   "\"inside\": {}, \"rescued\": {}, \"outcome\": \"{}\" }}",
+                   k == 0 ? "" : ",", section.hits, section.misses, section.matches, section.loops, section.moved,
+                   section.inside, section.rescued, name_of(section.outcome));
+  }
+}
 
 fs::path fit_store_of(const fs::path& character_file) {
   std::string name = character_file.filename().string();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ struct MuscleFits {
 
 // "fitted", "partial", "missed", "outside".
 std::string_view name_of(SectionOutcome outcome);
+
+// The sections as the elements of a JSON array; lengths in m.
+void append_json(std::span<const SectionReport> sections, std::string& out);
 
 using FitStore = std::map<std::string, MuscleFits>;  // by the muscle's name
 
