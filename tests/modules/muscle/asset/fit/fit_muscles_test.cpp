@@ -301,6 +301,39 @@ TEST(FitMuscles, ARigidMotionOfEverythingChangesNothing) {
   }
 }
 
+// The same of what goes beyond the papers: several loops, holes, heads, areas.
+TEST(FitMuscles, ARigidMotionChangesNothingInHardCasesEither) {
+  TriangleMesh holed = banana();
+  holed.indices.resize(holed.indices.size() - 60);
+  const TriangleMesh branches = two_branches(), curved = banana();
+  const MuscleDescription along = line_muscle({{0.004f, 0.001f, 0}, {0.296f, 0, 0.002f}}, 12, 3);
+  const std::vector<MuscleDescription> heads = {line_muscle({{0.002f, 0.0395f, 0}, {0.18f, 0, 0}, {0.298f, 0, 0}}, 12, 2),
+                                                line_muscle({{0.002f, -0.0395f, 0}, {0.18f, 0, 0}, {0.298f, 0, 0}}, 12, 2)};
+  std::vector<std::uint32_t> cap;
+  for (std::uint32_t t = static_cast<std::uint32_t>(curved.indices.size() / 3) - 40; 3 * t < curved.indices.size(); ++t) {
+    cap.push_back(t);
+  }
+  const auto fit_all = [&](const glm::mat4& motion) {
+    const TriangleMesh a = test::moved(holed, motion), b = test::moved(branches, motion), c = test::moved(curved, motion);
+    const TriangleMesh alone = b;
+    const std::vector<FitInput> inputs{{&along, &a, {}}, {&heads[0], &b, {}}, {&heads[1], &b, {}},
+                                       {&heads[0], &alone, {}}, {&along, &c, {std::vector<std::uint32_t>{}, cap}}};
+    return fit_muscles(inputs, std::span(&motion, 1));
+  };
+  const std::vector<FittedMuscle> still = fit_all(glm::mat4(1.0f));
+  const glm::mat4 motion =
+      glm::rotate(glm::translate(glm::mat4(1.0f), {0.2f, 0.4f, -0.3f}), 1.3f, glm::vec3(0.48f, -0.6f, 0.64f));
+  const std::vector<FittedMuscle> moved = fit_all(motion);
+  for (std::size_t m = 0; m < still.size(); ++m) {
+    ASSERT_FALSE(still[m].fit.radii.empty()) << to_text(still[m].diagnostics);
+    ASSERT_EQ(moved[m].fit.radii.size(), still[m].fit.radii.size()) << m;
+    for (std::size_t i = 0; i < still[m].fit.radii.size(); ++i) {
+      EXPECT_NEAR(moved[m].fit.radii[i], still[m].fit.radii[i], 2e-5f) << m << " " << i;
+    }
+  }
+  EXPECT_TRUE(still[4].fit.end_normals[1].has_value());
+}
+
 TEST(FitMuscles, AUniformScaleOfEverythingScalesTheFit) {
   for (const float scale : {0.25f, 7.0f}) {
     TriangleMesh mesh = banana();
