@@ -105,6 +105,11 @@ struct RayScene::Impl {
   float reach = 0.0f;  // m, from the middle, a little beyond the mesh
   float same_place = 0.0f;
 
+  void set_plain(const TriangleMesh& mesh) {
+    plain = mesh;
+    indices = mesh.indices;
+    set_bounds(mesh_bounds(mesh));
+  }
   void set_bounds(const Bounds& of_mesh) {
     bounds = of_mesh;
     middle = 0.5f * (bounds.lower + bounds.upper);
@@ -201,10 +206,13 @@ struct RayScene::Impl {
 };
 
 RayScene::RayScene(const RayDevice& device, const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) {
+  const RTCDevice embree = device.impl_->device;
+  if (embree == nullptr) {  // a processor that Embree does not run on
+    impl_->set_plain(mesh);
+    return;
+  }
   impl_->positions = mesh.positions;
   impl_->indices = mesh.indices;
-  const RTCDevice embree = device.impl_->device;
-  assert(embree != nullptr);
   impl_->scene = rtcNewScene(embree);
   rtcSetSceneFlags(impl_->scene,
                    static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -229,11 +237,7 @@ RayScene::RayScene(const RayDevice& device, const TriangleMesh& mesh) : impl_(st
   impl_->set_bounds({{bounds.lower_x, bounds.lower_y, bounds.lower_z}, {bounds.upper_x, bounds.upper_y, bounds.upper_z}});
 }
 
-RayScene::RayScene(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) {
-  impl_->plain = mesh;
-  impl_->indices = mesh.indices;
-  impl_->set_bounds(mesh_bounds(mesh));
-}
+RayScene::RayScene(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) { impl_->set_plain(mesh); }
 
 const Bounds& RayScene::bounds() const { return impl_->bounds; }
 

@@ -38,8 +38,9 @@ namespace fascicle::muscle {
 struct FitOptions {
   std::uint32_t supersampling = 3;  // CSS, >= 1: CSS |C| rays a section find the inner points
   bool restore_ends = true;         // off for the article's table 4
-  // Ours; off for table 4: keep to one loop where a plane cuts the mesh in several, and put centres that the rays left
-  // outside deep into the slice.
+  // Ours; off for the method's plain form and table 4: keep to one loop where a plane cuts the mesh in several, put
+  // centres that the rays left outside deep into the slice, give sections whose ends the model has outside a shape, and
+  // keep neighbouring sections from passing through each other.
   bool rescue = true;
   bool plain_rays = false;          // the plain loop over all triangles in place of Embree: for tests and benchmarks
 };
