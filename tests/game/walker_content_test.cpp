@@ -211,6 +211,21 @@ TEST(WalkerContent, LeftMeshesMirrorTheRight) {
   }
 }
 
+// All muscles are fitted, and what is stored is of the content as it is.
+TEST(WalkerContent, FitsAreStoredAndUpToDate) {
+  const auto fresh = muscle::load_character(kFolder / "walker.character.json", {.fit = muscle::FitMode::kFresh});
+  ASSERT_TRUE(fresh.ok()) << to_text(fresh.diagnostics());
+  const auto store = muscle::read_fit_store(muscle::fit_store_of(kFolder / "walker.character.json"));
+  ASSERT_TRUE(store.ok()) << to_text(store.diagnostics());
+  ASSERT_EQ(store->size(), 48u);
+  for (std::size_t i = 0; i < 48; ++i) {
+    const std::string& name = (*fresh)->descriptions[i].name;
+    EXPECT_FALSE((*fresh)->fits[i].levels.front().fitted.fit.radii.empty()) << name;
+    EXPECT_EQ(store->at(name).inputs, (*fresh)->fits[i].inputs)
+        << name << ": the content has changed since; run fascicle-cook fit walker";
+  }
+}
+
 TEST(WalkerContent, SlicesAreAsFarFromRoundAsAnatomicalOnes) {
   std::vector<double> quotients;
   for (const MuscleDescription& muscle : walker().descriptions) {
