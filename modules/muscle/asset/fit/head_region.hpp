@@ -13,7 +13,8 @@ namespace fascicle::muscle {
 
 class HeadRegion {
  public:
-  // Polylines through the heads' attachments, m; `own` is the number of this head's.
+  // Polylines through the heads' attachments, m; `own` is the number of this head's. Points that only subdivide a
+  // straight piece are left out, so that they cost nothing.
   HeadRegion(std::span<const std::vector<glm::dvec3>> lines, std::size_t own);
 
   // Neighbouring heads overlap a little, by a share of their distance from their lines, because each approximates the
@@ -23,6 +24,9 @@ class HeadRegion {
   // Cuts the stretches of the line origin + t direction, from number `first` on, down to what lies in the region.
   void clip(const glm::dvec3& origin, const glm::dvec3& direction, std::size_t first,
             std::vector<InsideInterval>& intervals) const;
+
+  // Straight pieces of this head's line.
+  std::size_t piece_count() const { return own_.size() - 1; }
 
  private:
   std::vector<glm::dvec3> own_;

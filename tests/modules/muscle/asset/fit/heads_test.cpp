@@ -48,6 +48,27 @@ TEST(HeadRegion, StretchesAreCutAtTheBorder) {
   EXPECT_TRUE(stretches.empty());
 }
 
+TEST(HeadRegion, SubdivisionOfStraightPiecesCountsForNothing) {
+  const std::vector<std::vector<glm::dvec3>> bent{{{0, 0.02, 0}, {0.11, 0.03, 0.007}, {0.3, 0.02, 0.01}}, kLines[1]};
+  std::vector<std::vector<glm::dvec3>> subdivided;
+  for (const std::vector<glm::dvec3>& line : bent) {
+    subdivided.push_back({line[0]});
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      for (int k = 1; k <= 64; ++k) subdivided.back().push_back(line[i - 1] + (line[i] - line[i - 1]) * (k / 64.0));
+    }
+  }
+  const HeadRegion plain(bent, 0), fine(subdivided, 0);
+  EXPECT_EQ(fine.piece_count(), 2u);  // the corner stays
+  EXPECT_EQ(HeadRegion(subdivided, 1).piece_count(), 1u);
+  test::Numbers numbers(3);
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 p = numbers.point(-0.1f, 0.4f);
+    EXPECT_EQ(plain.contains(p), fine.contains(p));
+  }
+  // A line that turns back on itself keeps its tip.
+  EXPECT_EQ(HeadRegion(std::vector<std::vector<glm::dvec3>>{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}}, 0).piece_count(), 2u);
+}
+
 struct Heads {
   TriangleMesh mesh;
   std::vector<MuscleDescription> muscles;
