@@ -68,12 +68,12 @@ TEST_F(LiveReload, AHundredEditsAThirdOfThemBroken) {
       switch (random() % 4) {
         case 0: write(character_file, good.substr(0, good.size() / 2)); break;
         case 1: write(character_file, replaced(good, "\"origin\"", "\"orgin\"")); break;
-        case 2: write(character_file, replaced(good, "\"section_vertices\": 12", "\"section_vertices\": 7")); break;
+        case 2: write(character_file, replaced(good, "\"section_vertices\": 16", "\"section_vertices\": 7")); break;
         case 3: write(character_file, replaced(good, "\"bone\": \"femur_r\"", "\"bone\": \"fermur_r\"")); break;
       }
       ++broken_edits;
     } else {
-      write(character_file, replaced(good, "\"section_vertices\": 12",
+      write(character_file, replaced(good, "\"section_vertices\": 16",
                                      "\"section_vertices\": " + std::to_string(6 + 2 * (random() % 6))));
       ++good_edits;
     }

@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
 #include "engine/animation/skeleton.hpp"
 #include "engine/content/mesh_reader.hpp"
 #include "engine/content/triangle_mesh.hpp"
@@ -74,6 +77,13 @@ Result<std::shared_ptr<const CharacterAsset>> make_mesh_character(const std::str
       fit_muscles(std::span(&input, 1), skeleton->rest_world, {.supersampling = options.supersampling});
   Diagnostics said{.errors = {}, .warnings = fitted[0].diagnostics.warnings};
   if (fitted[0].fit.radii.empty()) {
+    if (said.warnings.empty()) {
+      const Bounds bounds = mesh_bounds(clean);
+      said.warnings.push_back({reference, 0, 0, {},
+                               fmt::format("no muscle can be {:.3g} m across, or lie {:.3g} m from the origin",
+                                           bounds.diagonal(), glm::length(0.5f * (bounds.lower + bounds.upper))),
+                               "give the mesh's unit with --unit, or move it nearer"});
+    }
     return Diagnostics{.errors = std::move(said.warnings), .warnings = {}};
   }
   const auto built =

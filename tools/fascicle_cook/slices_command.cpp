@@ -169,7 +169,8 @@ void add_slices(CLI::App& program, Command& chosen) {
       ->required();
   command->add_option("--at", options->fractions, "Where along the length, as fractions (0.25,0.5,0.75)")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(CLI::Range(0.0, 1.0))
+      ->check([](const std::string& text) { return text.find_first_of("nN") == std::string::npos ? "" : "not a number"; });
   command->add_option("--unit", options->unit, "The unit of mesh files' numbers (m)")->check(CLI::IsMember(length_unit_names()));
   command->add_option("--csv", options->csv, "Write the slices to this file, a loop a line, in place of the table");
   command->add_option("--svg", options->svg,

@@ -13,6 +13,7 @@
 #include "engine/content/file_text.hpp"
 #include "engine/content/json_reader.hpp"
 #include "engine/content/quote_json.hpp"
+#include "engine/math/state_hash.hpp"
 #include "modules/muscle/asset/muscle_limits.hpp"
 
 namespace fascicle::muscle {
@@ -27,6 +28,28 @@ constexpr std::size_t kMostSections = (kMostViaPoints + 1) * 64 + 1;
 constexpr std::array<std::string_view, 4> kOutcomes{"fitted", "partial", "missed", "outside"};  // by SectionOutcome
 
 // --- reading ---
+
+// Of all that is stored of a muscle: what somebody changed by hand no longer fits its inputs.
+std::uint64_t hash_values(const MuscleFits& fits) {
+  StateHash hash;
+  for (const FittedLevel& level : fits.levels) {
+    hash.add(level.section_vertices);
+    hash.add(level.longitudinal_subdivision);
+    const MuscleFit& fit = level.fitted.fit;
+    hash.add(std::span(fit.displacements));
+    hash.add(fit.displacements.size());
+    hash.add(std::span(fit.radii));
+    hash.add(fit.radii.size());
+    for (const auto& normal : fit.end_normals) hash.add(normal.value_or(glm::vec3(0.0f)));
+    for (const SectionReport& section : level.fitted.sections) {
+      hash.add(std::array{section.hits, section.misses, section.matches, section.loops});
+      hash.add(section.moved);
+      hash.add(std::array{section.inside, section.rescued});
+      hash.add(section.outcome);
+    }
+  }
+  return hash.value();
+}
 
 bool read_hash(const JsonNode& node, std::uint64_t& hash, Diagnostics& diagnostics) {
   std::string text;
@@ -100,7 +123,10 @@ void read_muscle(const JsonNode& node, FitStore& store, Diagnostics& diagnostics
   std::string name;
   MuscleFits fits;
   object.require("name", name);
+  std::uint64_t values = 0;
   if (const JsonNode hash = object.require("inputs"); hash.exists()) read_hash(hash, fits.inputs, diagnostics);
+  const JsonNode stored_values = object.require("values");
+  const bool has_values = stored_values.exists() && read_hash(stored_values, values, diagnostics);
   for (const JsonNode level : object.require_array("levels", 1, 8)) {
     read_level(level, fits.levels.emplace_back(), diagnostics);
   }
@@ -114,6 +140,10 @@ void read_muscle(const JsonNode& node, FitStore& store, Diagnostics& diagnostics
     if (!fits.levels.empty()) fits.levels.front().fitted.diagnostics.warnings.push_back(std::move(told));
   }
   object.finish();
+  if (has_values && values != hash_values(fits)) {
+    stored_values.error(diagnostics, fmt::format("the fit of '{}' is not as it was written", name),
+                        "write the file anew with fascicle-cook fit");
+  }
   if (!store.emplace(name, std::move(fits)).second) {
     node.error(diagnostics, fmt::format("a second muscle '{}'", name), "write the file anew with fascicle-cook fit");
   }
@@ -204,8 +234,8 @@ std::string write_fit_store(const FitStore& store) {
       kStoreVersion);
   bool first = true;
   for (const auto& [name, fits] : store) {
-    fmt::format_to(std::back_inserter(out), "{}\n    {{ \"name\": {}, \"inputs\": \"{:016x}\", \"levels\": [",
-                   first ? "" : ",", quote_json(name), fits.inputs);
+    fmt::format_to(std::back_inserter(out), "{}\n    {{ \"name\": {}, \"inputs\": \"{:016x}\", \"values\": \"{:016x}\", \"levels\": [",
+                   first ? "" : ",", quote_json(name), fits.inputs, hash_values(fits));
     first = false;
     for (std::size_t i = 0; i < fits.levels.size(); ++i) {
       if (i > 0) out += ",";

@@ -151,8 +151,11 @@ FitStore load_fits(const fs::path& file, const CharacterAsset& asset, ContentSou
   if (asset.muscle_meshes.empty()) return {};
   const fs::path store_file = fit_store_of(file);
   sources.note(store_file);
-  if (std::error_code error; !fs::exists(store_file, error)) return {};
-  Result<FitStore> store = read_fit_store(store_file);
+  std::error_code error;
+  if (!fs::exists(store_file, error)) return {};
+  Result<FitStore> store = fs::is_regular_file(store_file, error)  // a pipe could be read for ever
+                               ? read_fit_store(store_file)
+                               : Diagnostic{store_file.string(), 0, 0, {}, "this is no ordinary file", "remove it"};
   if (store) return std::move(*store);
   Diagnostic warning = store.diagnostics().errors.front();
   warning.cause = "the stored fits cannot be used: " + warning.cause;

@@ -135,7 +135,10 @@ class MuscleMeshes {
   // False where the file of "muscle_meshes" cannot be read.
   bool open() {
     if (!file_.muscle_meshes.given()) return true;
-    named_ = sources_.gltf(file_.muscle_meshes.text, base_, file_.muscle_meshes.node, diagnostics_);
+    const NameEntry& entry = file_.muscle_meshes;
+    Diagnostics found;
+    named_ = sources_.gltf(entry.text, base_, entry.node, found);
+    tell(entry.node, std::move(found));
     return named_ != nullptr;
   }
 
@@ -165,6 +168,19 @@ class MuscleMeshes {
  private:
   using Mesh = std::shared_ptr<const TriangleMesh>;
 
+  // A reference that leads nowhere is an error; a mesh file that is broken inside leaves its muscles unfitted.
+  void tell(const JsonNode& node, Diagnostics found) {
+    for (Diagnostic& error : found.errors) {
+      if (error.file == node.file()) {
+        diagnostics_.errors.push_back(std::move(error));
+      } else {
+        node.warning(diagnostics_, fmt::format("the mesh file cannot be used: {}", to_string(error)),
+                     "mend it or name another; the muscles keep their unfitted shapes");
+      }
+    }
+    diagnostics_.append({.errors = {}, .warnings = std::move(found.warnings)});
+  }
+
   Mesh load_named(const std::string& name) {
     const GltfMesh* mesh = named_->find_mesh(name);
     if (mesh == nullptr) return nullptr;
@@ -177,7 +193,9 @@ class MuscleMeshes {
   }
 
   Mesh load_file(const MeshEntry& entry) {
-    Mesh mesh = sources_.mesh(entry.file.text, base_, entry.file.node, diagnostics_);
+    Diagnostics found;
+    Mesh mesh = sources_.mesh(entry.file.text, base_, entry.file.node, found);
+    tell(entry.file.node, std::move(found));
     if (!mesh) return nullptr;
     // The same file may be placed in several ways.
     const Trs& t = entry.transform;

@@ -51,6 +51,9 @@ TEST_F(FitCommand, WhatCannotBeFittedIsToldAndOne) {
   write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(run("fit '" + file("flat.obj") + "'"), 1);
   EXPECT_THAT(err(), HasSubstr("closed"));
+  write_obj("huge.obj", test::make_sphere(1.0e8f, 12, 12));
+  EXPECT_EQ(run("fit '" + file("huge.obj") + "'"), 1);
+  EXPECT_THAT(err(), HasSubstr("--unit"));
   write_character();
   EXPECT_EQ(run("fit '" + file("arm.character.json") + "' --muscle bizeps"), 1);
   EXPECT_THAT(err(), HasSubstr("did you mean 'biceps'?"));

@@ -21,6 +21,7 @@ TEST_F(SlicesCommand, WrongUsage) {
   EXPECT_EQ(run("walker --at 1.5"), 2);
   EXPECT_THAT(err(), HasSubstr("not in range"));
   EXPECT_EQ(run("walker --at half"), 2);
+  EXPECT_EQ(run("walker --at nan"), 2);
   EXPECT_EQ(run("walker --unit furlong"), 2);
   EXPECT_THAT(err(), HasSubstr("furlong"));
 }

@@ -1,6 +1,8 @@
 // Fits at load: which muscles get them, from where, and what is said.
 #include "modules/muscle/content/fit_character.hpp"
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -166,6 +168,40 @@ TEST_F(FitCharacter, ABrokenStoreIsSaidAndHarmless) {
     EXPECT_EQ(widest(*load(std::string(kArm))), width);
     EXPECT_THAT(warnings, HasSubstr("the stored fits cannot be used"));
     EXPECT_THAT(warnings, HasSubstr("run fascicle-cook fit"));
+  }
+}
+
+// Whatever was changed in a store by hand: it is not used, and no fault of the author's file.
+TEST_F(FitCharacter, AStoreThatWasEditedIsSaidAndNotUsed) {
+  const auto arm = load(std::string(kArm));
+  const float width = widest(*arm);
+  keep(*arm);
+  const std::string kept = *read_text_file(store());
+  for (const auto& [from, to] : {std::pair{"\"section_vertices\": 12", "\"section_vertices\": 14"},
+                                 std::pair{"\"longitudinal_subdivision\": 3", "\"longitudinal_subdivision\": 4"},
+                                 std::pair{"\"displacements\": [0,", "\"displacements\": [50,"}}) {
+    std::string edited = kept;
+    edited.replace(edited.find(from), std::string_view(from).size(), to);
+    folder.write("arm.fit.json", edited);
+    EXPECT_EQ(widest(*load(std::string(kArm))), width) << to;
+    EXPECT_THAT(warnings, HasSubstr("arm.fit.json")) << to;
+  }
+}
+
+TEST_F(FitCharacter, APipeInPlaceOfAStoreIsNotReadForEver) {
+  ASSERT_EQ(mkfifo(store().c_str(), 0600), 0);
+  load(std::string(kArm));
+  EXPECT_THAT(warnings, HasSubstr("this is no ordinary file"));
+}
+
+TEST_F(FitCharacter, ABrokenMeshFileLeavesTheMuscleUnfitted) {
+  const float unfitted = widest(*load(std::string(kArm), {.fit = FitMode::kNone}));
+  for (const std::string text : {"", "v 0 0 0\n", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}) {
+    folder.write("spindle.obj", text);
+    EXPECT_EQ(widest(*load(std::string(kArm))), unfitted) << text;
+    EXPECT_THAT(warnings, HasSubstr("arm.character.json:12:"));
+    EXPECT_THAT(warnings, HasSubstr("the mesh file cannot be used: "));
+    EXPECT_THAT(warnings, HasSubstr("the muscles keep their unfitted shapes"));
   }
 }
 

@@ -54,6 +54,8 @@ TEST(FitStore, RefusesWhatIsBroken) {
               HasSubstr("unknown member 'colour'"));
   EXPECT_THAT(error_of(with(sound(), "\"name\": \"unfitted\"", "\"name\": \"soleus \\\"right\\\"\"")),
               HasSubstr("a second muscle"));
+  EXPECT_THAT(error_of(with(sound(), "\"longitudinal_subdivision\": 0", "\"longitudinal_subdivision\": 3")),
+              HasSubstr("is not as it was written; write the file anew with fascicle-cook fit"));
 }
 
 TEST(FitStore, RefusesTextThatEndsEarly) {
