@@ -1,7 +1,10 @@
 #include "modules/muscle/asset/fit/check_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <glm/geometric.hpp>
 
 #include "engine/geometry/clean_mesh.hpp"
 #include "engine/geometry/mesh_measures.hpp"
@@ -9,6 +12,8 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr double kUnitSlack = 4.0;       // a mesh may be this much larger or smaller than its muscle
+constexpr double kStray = 100.0;         // times as far from the middle as half of all vertices
 constexpr double kLeastVolume = 1.0e-9;  // of the cube of its size: less is what rounding leaves
 
 std::uint64_t mixed(std::uint32_t from, std::uint32_t to) {
@@ -16,6 +21,12 @@ std::uint64_t mixed(std::uint32_t from, std::uint32_t to) {
   h ^= h >> 32;
   h *= 0xd6e8feb86659fd93ull;
   return h ^ (h >> 29);
+}
+
+double take_median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
 }
 
 bool is_sound(const TriangleMesh& mesh, double size) {
@@ -48,7 +59,7 @@ CheckedMesh check_mesh(const TriangleMesh& mesh) {
   return checked;
 }
 
-UnitGuess guess_unit(double factor) {
+std::optional<UnitGuess> guess_unit(double factor) {
   constexpr std::array<UnitGuess, 7> kUnits{{{"millimetres", 1000.0},
                                              {"centimetres", 100.0},
                                              {"inches", 39.37},
@@ -60,7 +71,28 @@ UnitGuess guess_unit(double factor) {
   for (const UnitGuess& unit : kUnits) {
     if (std::abs(std::log(factor / unit.factor)) < std::abs(std::log(factor / best.factor))) best = unit;
   }
+  if (factor > kUnitSlack * best.factor || factor < best.factor / kUnitSlack) return {};
   return best;
+}
+
+std::optional<double> find_stray_vertex(const TriangleMesh& mesh) {
+  std::vector<glm::dvec3> positions;
+  for (const std::uint32_t v : mesh.indices) {
+    const glm::vec3& p = mesh.positions[v];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) positions.emplace_back(p);
+  }
+  if (positions.empty()) return {};
+  glm::dvec3 middle(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const glm::dvec3& p : positions) coordinates.push_back(p[axis]);
+    middle[axis] = take_median(coordinates);
+  }
+  std::vector<double> distances;
+  for (const glm::dvec3& p : positions) distances.push_back(glm::distance(p, middle));
+  const double furthest = *std::ranges::max_element(distances);
+  if (furthest <= kStray * take_median(distances)) return {};
+  return furthest;
 }
 
 }  // namespace fascicle::muscle

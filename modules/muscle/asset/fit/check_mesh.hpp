@@ -26,12 +26,16 @@ struct CheckedMesh {
 };
 CheckedMesh check_mesh(const TriangleMesh& mesh);
 
-// Of a mesh `factor` times as large as the muscle that it is for: what unit it seems to be in.
+// Of a mesh `factor` times as large as the muscle that it is for: what unit it seems to be in; nothing where no unit
+// comes near.
 struct UnitGuess {
   const char* unit;
   double factor;  // how much too large a mesh in that unit is
 };
-UnitGuess guess_unit(double factor);
+std::optional<UnitGuess> guess_unit(double factor);
+
+// m, how far away the furthest vertex is, where it lies out of all proportion to where most are; else nothing.
+std::optional<double> find_stray_vertex(const TriangleMesh& mesh);
 
 // Meshes this much larger or smaller than their action lines are in another unit.
 inline constexpr double kWrongUnit = 8.0;

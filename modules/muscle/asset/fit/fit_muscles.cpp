@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/clean_mesh.hpp"
@@ -52,21 +53,37 @@ void warn(const FitInput& input, const std::string& cause, std::string remedy, F
       fault_of(*input.description, "mesh", fmt::format("its mesh{} {}", name, cause), std::move(remedy)));
 }
 
-double length_of(std::span<const glm::dvec3> points) {
-  double length = 0.0;
-  for (std::size_t k = 1; k < points.size(); ++k) length += glm::distance(points[k - 1], points[k]);
-  return length;
+// m, the diagonal of the line's bounds: a line that winds is longer than the muscle.
+double extent_of(std::span<const glm::dvec3> points) {
+  glm::dvec3 lower = points[0], upper = points[0];
+  for (const glm::dvec3& p : points) {
+    lower = glm::min(lower, p);
+    upper = glm::max(upper, p);
+  }
+  return glm::distance(lower, upper);
+}
+
+// True where a vertex far from all others spoils the mesh; it says so.
+bool warn_of_stray(const FitInput& input, FittedMuscle& fitted) {
+  const std::optional<double> stray = find_stray_vertex(*input.mesh);
+  if (!stray) return false;
+  warn(input, fmt::format("has a vertex {:.3g} m away from the others", *stray),
+       fmt::format("remove it; {}", kUnfitted), fitted);
+  return true;
 }
 
 // True where the mesh is of the line's size; else it says so.
-bool check_size(const FitInput& input, double size, double line_length, FittedMuscle& fitted) {
-  const double factor = size / line_length;
+bool check_size(const FitInput& input, double size, double extent, FittedMuscle& fitted) {
+  const double factor = size / extent;
   if (factor <= kWrongUnit && factor >= 1.0 / kWrongUnit) return true;
-  const UnitGuess guess = guess_unit(factor);
+  if (warn_of_stray(input, fitted)) return false;
+  const std::optional<UnitGuess> guess = guess_unit(factor);
   warn(input,
-       fmt::format("is {:.3g} m across, on an action line of {:.3g} m: it seems to be in {}", size, line_length,
-                   guess.unit),
-       fmt::format("give the mesh's unit; {}", kUnfitted), fitted);
+       fmt::format("is {:.3g} m across, on an action line {:.3g} m across{}", size, extent,
+                   guess ? fmt::format(": it seems to be in {}", guess->unit) : ""),
+       fmt::format("{}; {}", guess ? "give the mesh's unit" : "check the mesh's unit and the muscle's attachments",
+                   kUnfitted),
+       fitted);
   return false;
 }
 
@@ -95,11 +112,12 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   const CheckedMesh checked = check_mesh(*input.mesh);
   const TriangleMesh& mesh = checked.mended ? *checked.mended : *input.mesh;
   if (mesh.indices.empty()) {
+    if (warn_of_stray(input, fitted)) return fitted;
     warn(input, input.mesh->indices.empty() ? "has no triangles" : "is left without triangles: " + checked.defects,
          fmt::format("give another mesh; {}", kUnfitted), fitted);
     return fitted;
   }
-  if (!check_size(input, checked.size, length_of(points), fitted)) return fitted;
+  if (!check_size(input, checked.size, extent_of(points), fitted)) return fitted;
   const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), checked.sound,
                            region);
   const glm::dmat3 origin_bone{

@@ -22,6 +22,7 @@ namespace {
 using test::ellipse;
 using test::line_muscle;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -98,6 +99,38 @@ TEST(DefectiveMesh, InAnotherUnit) {
     for (glm::vec3& p : mesh.positions) p *= scale;
     expect_unfitted(fit(mesh), unit);
   }
+}
+
+TEST(DefectiveMesh, OfASizeThatNoUnitExplains) {
+  for (const float scale : {1.0e37f, 3.0e5f, 1.0e-5f, 1.0e-30f}) {
+    TriangleMesh mesh = tube();
+    for (glm::vec3& p : mesh.positions) p *= scale;
+    const FittedMuscle fitted = fit(mesh);
+    expect_unfitted(fitted, "m across");
+    EXPECT_THAT(said(fitted), Not(HasSubstr("seems"))) << scale;
+  }
+}
+
+// A line that winds to and fro is as large as its mesh, however long it is.
+TEST(DefectiveMesh, AWindingLineIsNoOtherUnit) {
+  std::vector<glm::vec3> points;
+  for (int i = 0; i < 200; ++i) points.emplace_back(i % 2 == 0 ? 0.05f : 0.25f, 0.05f, 1.0e-4f * static_cast<float>(i - 100));
+  const FittedMuscle fitted = fit(tube(), line_muscle(points, 12, 0));
+  EXPECT_FALSE(fitted.fit.radii.empty());
+  EXPECT_THAT(said(fitted), Not(HasSubstr("unit")));
+}
+
+TEST(DefectiveMesh, AVertexFarAwayIsNamed) {
+  for (const float far : {12.0f, 1.0e4f, 1.0e8f, 1.0e20f}) {
+    TriangleMesh mesh = tube();
+    mesh.positions[500].y = far;
+    const FittedMuscle fitted = fit(mesh);
+    expect_unfitted(fitted, "has a vertex");
+    EXPECT_THAT(said(fitted), HasSubstr("remove it"));
+    EXPECT_THAT(said(fitted), Not(HasSubstr("seems")));
+  }
+  EXPECT_FALSE(find_stray_vertex(tube()));
+  EXPECT_FALSE(find_stray_vertex({}));
 }
 
 TEST(DefectiveMesh, AnActionLineThatMissesIt) {
