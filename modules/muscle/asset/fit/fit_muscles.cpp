@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/clean_mesh.hpp"
+#include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/ray_scene.hpp"
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/check_descriptions.hpp"
@@ -45,6 +46,7 @@ bool can_be_built(const MuscleDescription& description, std::span<const glm::mat
   return check_description(checked, rest_bones).ok();
 }
 
+constexpr double kFarOff = 0.5;  // of a mesh's diagonal
 constexpr const char* kUnfitted = "the muscle keeps its unfitted shape";
 
 void warn(const FitInput& input, const std::string& cause, std::string remedy, FittedMuscle& fitted) {
@@ -87,6 +89,35 @@ bool check_size(const FitInput& input, double size, double extent, FittedMuscle&
   return false;
 }
 
+// m, between a line and a box. The distance to what is convex has one valley along a straight stretch.
+double distance_between(std::span<const glm::dvec3> line, const Bounds& bounds) {
+  const glm::dvec3 lower(bounds.lower), upper(bounds.upper);
+  const auto from = [&](const glm::dvec3& p) { return glm::distance(p, glm::clamp(p, lower, upper)); };
+  double least = from(line[0]);
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    double low = 0.0, high = 1.0;
+    for (int round = 0; round < 40; ++round) {
+      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+      if (from(glm::mix(line[k - 1], line[k], a)) <= from(glm::mix(line[k - 1], line[k], b))) high = b;
+      else low = a;
+    }
+    least = std::min({least, from(line[k]), from(glm::mix(line[k - 1], line[k], 0.5 * (low + high)))});
+  }
+  return least;
+}
+
+// True where the line comes near the mesh; else it says so. Lines beside their meshes are fitted, too: of a curved
+// muscle that is the rule.
+bool check_place(const FitInput& input, const TriangleMesh& mesh, std::span<const glm::dvec3> line,
+                 FittedMuscle& fitted) {
+  const Bounds bounds = mesh_bounds(mesh);
+  const double distance = distance_between(line, bounds);
+  if (distance <= kFarOff * double{bounds.diagonal()}) return true;
+  warn(input, fmt::format("lies {:.3g} m away from the muscle's action line", distance),
+       fmt::format("check its place and unit; {}", kUnfitted), fitted);
+  return false;
+}
+
 // The attachment area at an end, in the mesh as it was mended. Triangles that are not there are left out.
 TriangleMesh find_area(const FitInput& input, const CheckedMesh& checked, const TriangleMesh& mesh, std::size_t end) {
   std::vector<std::uint32_t> triangles = input.areas[end];
@@ -118,6 +149,7 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
     return fitted;
   }
   if (!check_size(input, checked.size, extent_of(points), fitted)) return fitted;
+  if (!check_place(input, mesh, points, fitted)) return fitted;
   const FitSurface surface(mesh, options.plain_rays ? RayScene(mesh) : RayScene(device, mesh), checked.sound,
                            region);
   const glm::dmat3 origin_bone{
@@ -127,6 +159,13 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   std::string defects = checked.defects;
   if (defects.empty() && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
   if (!fit.any_hit) {
+    if (region != nullptr && std::ranges::none_of(mesh.indices, [&](std::uint32_t v) {
+          return region->contains(glm::dvec3(mesh.positions[v]));
+        })) {
+      warn(input, "is nearer to other heads' action lines everywhere",
+           fmt::format("check the muscle's attachments, or give it another mesh; {}", kUnfitted), fitted);
+      return fitted;
+    }
     warn(input,
          defects.empty()
              ? "is missed by the muscle's action line altogether: no section's plane meets it"

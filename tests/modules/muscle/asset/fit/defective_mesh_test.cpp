@@ -114,7 +114,9 @@ TEST(DefectiveMesh, OfASizeThatNoUnitExplains) {
 // A line that winds to and fro is as large as its mesh, however long it is.
 TEST(DefectiveMesh, AWindingLineIsNoOtherUnit) {
   std::vector<glm::vec3> points;
-  for (int i = 0; i < 200; ++i) points.emplace_back(i % 2 == 0 ? 0.05f : 0.25f, 0.05f, 1.0e-4f * static_cast<float>(i - 100));
+  for (int i = 0; i < 200; ++i) {
+    points.emplace_back(i % 2 == 0 ? 0.05f : 0.25f, 0.05f, 1.0e-4f * static_cast<float>(i - 100));
+  }
   const FittedMuscle fitted = fit(tube(), line_muscle(points, 12, 0));
   EXPECT_FALSE(fitted.fit.radii.empty());
   EXPECT_THAT(said(fitted), Not(HasSubstr("unit")));
@@ -134,7 +136,23 @@ TEST(DefectiveMesh, AVertexFarAwayIsNamed) {
 }
 
 TEST(DefectiveMesh, AnActionLineThatMissesIt) {
-  expect_unfitted(fit(test::moved(tube(), glm::translate(glm::mat4(1.0f), {1.0f, 0, 0}))), "is missed");
+  expect_unfitted(fit(test::moved(tube(), glm::translate(glm::mat4(1.0f), {0.4f, 0, 0}))), "is missed");
+}
+
+TEST(DefectiveMesh, AnActionLineFarOffIt) {
+  for (const glm::vec3 away : {glm::vec3(1.0f, 0, 0), glm::vec3(0, 1.0f, 0), glm::vec3(-0.3f, 0.8f, -0.8f)}) {
+    expect_unfitted(fit(test::moved(tube(), glm::translate(glm::mat4(1.0f), away))),
+                    "m away from the muscle's action line");
+  }
+  expect_unfitted(fit(test::moved(tube(), glm::translate(glm::mat4(1.0f), {0, 0, 1.02f}))), "lies 1 m away");
+  const FittedMuscle beside = fit(test::moved(tube(), glm::translate(glm::mat4(1.0f), {0, 0.08f, 0})));
+  EXPECT_GT(beside.sections.at(4).moved, 0.05f);
+}
+
+// Far from every attachment, but near the line between two of them.
+TEST(DefectiveMesh, ALineIsNearWhereItPasses) {
+  const FittedMuscle fitted = fit(tube(), line_muscle({{0.15f, 0, -1.0f}, {0.15f, 0, 1.0f}}, 12, 1));
+  EXPECT_THAT(said(fitted), Not(HasSubstr("away from")));
 }
 
 TEST(DefectiveMesh, InsideOut) { expect_fitted(fit(test::inside_out(tube())), "inside out", 2e-6); }

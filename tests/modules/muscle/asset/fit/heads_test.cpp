@@ -1,6 +1,7 @@
 // Several action lines in one mesh: each head keeps to its own part, and together they cover the mesh.
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/geometry/closest_point.hpp"
@@ -163,6 +164,19 @@ TEST_P(HeadsTest, AloneEachTakesAll) {
 constexpr const char* kNames[] = {"flat", "biceps", "three"};
 INSTANTIATE_TEST_SUITE_P(Shapes, HeadsTest, testing::Values(flat_muscle, biceps, three_heads),
                          [](const auto& shape) { return std::string(kNames[shape.index]); });
+
+TEST(HeadRegion, AHeadWithoutAnyOfTheMeshIsToldWhy) {
+  const TriangleMesh mesh = make_tube([](double) { return ellipse({0.0, 0.0}, 0.03, 0.02); }, 0.3, 12);
+  const MuscleDescription through = line_muscle({{0.003f, 0, 0}, {0.297f, 0, 0}}, 12, 2),
+                          beside = line_muscle({{0.003f, 0.1f, 0}, {0.297f, 0.1f, 0}}, 12, 2);
+  const std::vector<FitInput> inputs{{&through, &mesh, {}}, {&beside, &mesh, {}}};
+  const glm::mat4 bone(1.0f);
+  const std::vector<FittedMuscle> fitted = fit_muscles(inputs, std::span(&bone, 1));
+  EXPECT_FALSE(fitted[0].fit.radii.empty());
+  EXPECT_TRUE(fitted[0].diagnostics.warnings.empty()) << to_text(fitted[0].diagnostics);
+  EXPECT_TRUE(fitted[1].fit.radii.empty());
+  EXPECT_THAT(to_text(fitted[1].diagnostics), testing::HasSubstr("nearer to other heads"));
+}
 
 }  // namespace
 }  // namespace fascicle::muscle
