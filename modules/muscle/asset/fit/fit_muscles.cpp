@@ -21,16 +21,23 @@
 namespace fascicle::muscle {
 namespace {
 
+// m, in the rest bones' space.
+std::vector<glm::dvec3> attachment_points(const MuscleDescription& description, std::span<const glm::mat4> bones) {
+  std::vector<glm::dvec3> points;
+  for (const AttachmentDescription& attachment : description.attachments) {
+    points.emplace_back(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]) *
+                        glm::dvec4(attachment.position, 1.0));
+  }
+  return points;
+}
+
 // The centres of a muscle's sections before the fit, m.
 std::vector<glm::dvec3> section_points(const MuscleDescription& description, std::span<const glm::mat4> bones) {
-  const auto place = [&](const AttachmentDescription& attachment) {
-    return glm::dvec3(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]) *
-                      glm::dvec4(attachment.position, 1.0));
-  };
   const std::size_t steps = std::size_t{1} << description.longitudinal_subdivision;
-  std::vector<glm::dvec3> points{place(description.attachments.front())};
-  for (std::size_t i = 1; i < description.attachments.size(); ++i) {
-    const glm::dvec3 from = points.back(), to = place(description.attachments[i]);
+  const std::vector<glm::dvec3> attachments = attachment_points(description, bones);
+  std::vector<glm::dvec3> points{attachments[0]};
+  for (std::size_t i = 1; i < attachments.size(); ++i) {
+    const glm::dvec3 from = points.back(), to = attachments[i];
     for (std::size_t k = 1; k <= steps; ++k) {
       points.push_back(from + (to - from) * (static_cast<double>(k) / static_cast<double>(steps)));
     }
@@ -46,7 +53,8 @@ bool can_be_built(const MuscleDescription& description, std::span<const glm::mat
   return check_description(checked, rest_bones).ok();
 }
 
-constexpr double kFarOff = 0.5;  // of a mesh's diagonal
+constexpr double kFarOff = 0.5;      // of a mesh's diagonal
+constexpr double kSameLine = 1.0e-3;  // of a line's extent
 constexpr const char* kUnfitted = "the muscle keeps its unfitted shape";
 
 void warn(const FitInput& input, const std::string& cause, std::string remedy, FittedMuscle& fitted) {
@@ -118,6 +126,18 @@ bool check_place(const FitInput& input, const TriangleMesh& mesh, std::span<cons
   return false;
 }
 
+// The ends do not count: that the model has them outside of the mesh is common.
+void warn_of_outside(const FitInput& input, FittedMuscle& fitted) {
+  if (fitted.sections.size() < 3) return;
+  const std::span inner = std::span<const SectionReport>(fitted.sections).subspan(1, fitted.sections.size() - 2);
+  const auto outside = std::ranges::count_if(inner, [](const SectionReport& section) {
+    return section.outcome == SectionOutcome::kMissed || section.outcome == SectionOutcome::kOutside;
+  });
+  if (2 * static_cast<std::size_t>(outside) <= inner.size()) return;
+  warn(input, fmt::format("is found by few sections: round {} of {} inner ones there is none", outside, inner.size()),
+       "lengthen the mesh, move the attachments, or give no mesh", fitted);
+}
+
 // The attachment area at an end, in the mesh as it was mended. Triangles that are not there are left out.
 TriangleMesh find_area(const FitInput& input, const CheckedMesh& checked, const TriangleMesh& mesh, std::size_t end) {
   std::vector<std::uint32_t> triangles = input.areas[end];
@@ -186,7 +206,27 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   for (std::size_t end = 0; end < 2; ++end) {
     if (fit.end_normals[end]) fitted.fit.end_normals[end] = glm::vec3(*fit.end_normals[end]);
   }
+  warn_of_outside(input, fitted);
   return fitted;
+}
+
+// Heads whose lines are the same both get the whole mesh. Said once, at the later one.
+void warn_of_same_lines(std::span<const FitInput> inputs, std::span<const glm::mat4> rest_bones,
+                        std::vector<FittedMuscle>& fitted) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (inputs[j].mesh != inputs[i].mesh || fitted[i].fit.radii.empty() || fitted[j].fit.radii.empty()) continue;
+      const std::vector<glm::dvec3> line = attachment_points(*inputs[i].description, rest_bones);
+      const auto same = [tolerance = kSameLine * extent_of(line)](const glm::dvec3& a, const glm::dvec3& b) {
+        return glm::distance(a, b) <= tolerance;
+      };
+      if (!std::ranges::equal(line, attachment_points(*inputs[j].description, rest_bones), same)) continue;
+      warn(inputs[i],
+           fmt::format("is shared whole with '{}', which has the same action line", inputs[j].description->name),
+           "give each head a line of its own, or make them one muscle", fitted[i]);
+      break;
+    }
+  }
 }
 
 // Of inputs that share their mesh with another.
@@ -225,6 +265,7 @@ std::vector<FittedMuscle> fit_muscles(std::span<const FitInput> inputs, std::spa
       if (wanted[i]) fitted[i] = fit_muscle(inputs[i], rest_bones, device, options, region);
     }
   });
+  warn_of_same_lines(inputs, rest_bones, fitted);
   return fitted;
 }
 

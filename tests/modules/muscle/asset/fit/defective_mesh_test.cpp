@@ -155,6 +155,16 @@ TEST(DefectiveMesh, ALineIsNearWhereItPasses) {
   EXPECT_THAT(said(fitted), Not(HasSubstr("away from")));
 }
 
+TEST(DefectiveMesh, OneThatFewSectionsFindIsTold) {
+  const FittedMuscle few = fit(tube(), line_muscle({{0.25f, 0, 0}, {0.85f, 0, 0}}, 12, 3));
+  ASSERT_EQ(few.sections.size(), 9u);
+  ASSERT_EQ(few.diagnostics.warnings.size(), 1u) << said(few);
+  EXPECT_THAT(said(few), HasSubstr("round 7 of 7 inner ones there is none"));
+  const FittedMuscle several = fit(tube(), line_muscle({{0.004f, 0, 0}, {0.55f, 0, 0}}, 12, 3));
+  EXPECT_FALSE(several.fit.radii.empty());
+  EXPECT_TRUE(several.diagnostics.warnings.empty()) << said(several);
+}
+
 TEST(DefectiveMesh, InsideOut) { expect_fitted(fit(test::inside_out(tube())), "inside out", 2e-6); }
 
 TEST(DefectiveMesh, FlippedTriangles) {

@@ -1,5 +1,7 @@
 // Several action lines in one mesh: each head keeps to its own part, and together they cover the mesh.
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -176,6 +178,29 @@ TEST(HeadRegion, AHeadWithoutAnyOfTheMeshIsToldWhy) {
   EXPECT_TRUE(fitted[0].diagnostics.warnings.empty()) << to_text(fitted[0].diagnostics);
   EXPECT_TRUE(fitted[1].fit.radii.empty());
   EXPECT_THAT(to_text(fitted[1].diagnostics), testing::HasSubstr("nearer to other heads"));
+}
+
+TEST(HeadRegion, HeadsWithTheSameLineAreToldOnce) {
+  const TriangleMesh mesh = make_tube([](double) { return ellipse({0.0, 0.0}, 0.03, 0.02); }, 0.3, 12), copy = mesh;
+  std::vector<MuscleDescription> muscles(2, line_muscle({{0.003f, 0, 0}, {0.297f, 0, 0}}, 12, 2));
+  muscles[0].name = "long head";
+  muscles[1].longitudinal_subdivision = 3;  // which the line does not depend on
+  const glm::mat4 bone(1.0f);
+  const auto said = [&](const TriangleMesh& second) {
+    const std::vector<FitInput> inputs{{&muscles[0], &mesh, {}}, {&muscles[1], &second, {}}};
+    std::string text;
+    for (const FittedMuscle& fitted : fit_muscles(inputs, std::span(&bone, 1))) {
+      EXPECT_FALSE(fitted.fit.radii.empty());
+      text += to_text(fitted.diagnostics);
+    }
+    return text;
+  };
+  const std::string text = said(mesh);
+  EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
+  EXPECT_THAT(text, testing::HasSubstr("shared whole with 'long head'"));
+  EXPECT_EQ(said(copy), "");
+  muscles[1].attachments[0].position.y = 0.01f;
+  EXPECT_EQ(said(mesh), "");
 }
 
 }  // namespace
