@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/clean_mesh.hpp"
@@ -29,6 +31,28 @@ double take_median(std::vector<double>& values) {
   return *middle;
 }
 
+std::uint64_t hash_of(const glm::vec3& p) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
+  return mixed(bits(p.x), bits(p.y)) + mixed(bits(p.z), 1);
+}
+
+// Triangles that stand where another does, the same way round. By place, so that doubled parts count that have vertices
+// of their own.
+std::size_t count_duplicates(const TriangleMesh& mesh) {
+  std::vector<std::uint64_t> vertices, triangles;
+  vertices.reserve(mesh.positions.size());
+  triangles.reserve(mesh.indices.size() / 3);
+  for (const glm::vec3& p : mesh.positions) vertices.push_back(hash_of(p));
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<std::uint64_t, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = vertices[mesh.indices[i + k]];
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    triangles.push_back(corners[0] + 3 * std::rotl(corners[1], 21) + 5 * std::rotl(corners[2], 42));
+  }
+  std::ranges::sort(triangles);
+  return std::ranges::unique(triangles).size();
+}
+
 bool is_sound(const TriangleMesh& mesh, double size) {
   for (const glm::vec3& p : mesh.positions) {
     if (!std::isfinite(p.x + p.y + p.z)) return false;
@@ -49,7 +73,13 @@ CheckedMesh check_mesh(const TriangleMesh& mesh) {
   CheckedMesh checked;
   checked.size = double{mesh_bounds(mesh).diagonal()};
   checked.sound = is_sound(mesh, checked.size);
-  if (checked.sound) return checked;
+  if (checked.sound) {
+    // They stay: where parts share some triangles, the mesh without these was open.
+    if (const std::size_t duplicates = count_duplicates(mesh); duplicates > 0) {
+      checked.defects = fmt::format("{} triangle{} twice", duplicates, duplicates == 1 ? "" : "s");
+    }
+    return checked;
+  }
   CleanMesh clean = clean_mesh(mesh);
   checked.size = double{mesh_bounds(clean.mesh).diagonal()};
   checked.sound = is_sound(clean.mesh, checked.size);

@@ -177,7 +177,7 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   const std::array areas{find_area(input, checked, mesh, 0), find_area(input, checked, mesh, 1)};
   const LineFit fit = fit_line(surface, points, origin_bone, description.section_vertices, areas, options);
   std::string defects = checked.defects;
-  if (defects.empty() && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
+  if (!checked.mended && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
   if (!fit.any_hit) {
     if (region != nullptr && std::ranges::none_of(mesh.indices, [&](std::uint32_t v) {
           return region->contains(glm::dvec3(mesh.positions[v]));

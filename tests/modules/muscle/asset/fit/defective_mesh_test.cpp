@@ -230,6 +230,24 @@ TEST(DefectiveMesh, DoubledVerticesAndTriangles) {
   expect_fitted(fit(mesh), "twice", 2e-6);
 }
 
+TEST(DefectiveMesh, AllTrianglesSeveralTimes) {
+  const TriangleMesh once = tube();
+  for (const int copies : {2, 3}) {
+    TriangleMesh repeated = once, joined = once;
+    for (int i = 1; i < copies; ++i) {
+      repeated.indices.insert(repeated.indices.end(), once.indices.begin(), once.indices.end());
+      joined = test::join(joined, once);
+    }
+    expect_fitted(fit(repeated), "twice", 2e-6);
+    expect_fitted(fit(joined), "twice", 2e-6);
+  }
+  const TriangleMesh inner = test::make_sphere(0.01f, 12, 18, {0.15f, 0.05f, 0.0f});
+  expect_fitted(fit(test::join(test::join(once, inner), inner)), "twice", 2e-6);
+  TriangleMesh folded = once;  // a flap without a thickness, not a triangle twice
+  folded.indices.insert(folded.indices.end(), {0, 1, 50, 1, 0, 50});
+  expect_fitted(fit(folded), "", 2e-6);
+}
+
 TEST(DefectiveMesh, ShellsThatOverlapAreFittedAsOne) {
   const TriangleMesh mesh = test::join(tube(), test::make_sphere(0.015f, 12, 18, {0.15f, 0.05f, 0.0f}));
   expect_fitted(fit(mesh), "", 2e-6);  // all inside
