@@ -15,7 +15,9 @@ namespace {
 
 constexpr int kSamplesAlongLine = 48;  // at least, over the mesh's size, where the winding number must be sampled
 constexpr int kBisections = 24;
-
+// On a line that crosses more triangles of an unsound mesh than this its own crossings stand for the winding number: of
+// triangles without order every line crosses thousands, and each winding number there is a sum over most of them.
+constexpr std::size_t kMostCrossings = 64;
 
 }  // namespace
 
@@ -53,6 +55,15 @@ void FitSurface::append_by_winding(const Line& line, std::span<const LineCrossin
     if (intervals.size() > first && from <= intervals.back().to) intervals.back().to = to;
     else intervals.push_back({from, to});
   };
+  if (crossings.size() > kMostCrossings) {
+    int total = 0, entered = 0;
+    for (const LineCrossing& crossing : crossings) total += crossing.exit ? -1 : 1;
+    for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
+      entered += crossings[i].exit ? -1 : 1;
+      if (2 * entered - total >= 1) add(crossings[i].t, crossings[i + 1].t);  // the mean from both ends >= 1/2
+    }
+    return;
+  }
   // Between two crossings the winding number has no jumps: it is sampled, and bisected where it passes one half.
   double from = start;
   for (std::size_t i = 0; i <= crossings.size(); ++i) {
