@@ -53,7 +53,7 @@ bool can_be_built(const MuscleDescription& description, std::span<const glm::mat
   return check_description(checked, rest_bones).ok();
 }
 
-constexpr double kFarOff = 0.5;      // of a mesh's diagonal
+constexpr double kFarOff = 0.5;       // of a mesh's diagonal
 constexpr double kSameLine = 1.0e-3;  // of a line's extent
 constexpr const char* kUnfitted = "the muscle keeps its unfitted shape";
 

@@ -78,8 +78,9 @@ struct FitInput {
 // Fits each input, at the |C| and LSS of its description; one result an input. Inputs that share a mesh (the same
 // pointer) are the heads of one muscle. `rest_bones` are the skeleton's bone-to-character matrices at rest.
 //
-// A mesh that cannot be fitted to (empty, in another unit, away from the action line) leaves a warning and an empty
-// fit; one with defects is fitted all the same, with a warning that names them. A description that
+// A mesh that cannot be fitted to (empty, in another unit, away from the action line, all another head's) leaves a
+// warning and an empty fit; one with defects is fitted all the same, with a warning that names them. Told are, too,
+// fits that most sections' planes or centres miss, and heads with the same action line. A description that
 // check_description refuses gives an empty fit without a warning, because the builder will say it. All numbers are
 // finite. The same bits for any number of workers.
 std::vector<FittedMuscle> fit_muscles(std::span<const FitInput> inputs, std::span<const glm::mat4> rest_bones,
