@@ -41,7 +41,8 @@ std::vector<glm::dvec3> without_subdivision(std::span<const glm::dvec3> line) {
 
 }  // namespace
 
-HeadRegion::HeadRegion(std::span<const std::vector<glm::dvec3>> lines, std::size_t own) : own_(without_subdivision(lines[own])) {
+HeadRegion::HeadRegion(std::span<const std::vector<glm::dvec3>> lines, std::size_t own)
+    : own_(without_subdivision(lines[own])) {
   double length = 0.0;
   for (std::size_t i = 1; i < own_.size(); ++i) length += glm::distance(own_[i - 1], own_[i]);
   step_ = length / kSteps;
