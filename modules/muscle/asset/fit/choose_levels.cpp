@@ -10,6 +10,7 @@
 
 #include "engine/geometry/clean_mesh.hpp"
 #include "engine/parallel/for_range.hpp"
+#include "modules/muscle/asset/fit/check_mesh.hpp"
 #include "modules/muscle/asset/fit/compare_fit.hpp"
 
 namespace fascicle::muscle {
@@ -103,7 +104,10 @@ class Chooser {
     }
     parallel::for_range(groups_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t g = begin; g < end; ++g) {
-        groups_[g].oracle = std::make_unique<const MeshOracle>(clean_mesh(*groups_[g].mesh).mesh);
+        Group& group = groups_[g];
+        group.checked = check_mesh(*group.mesh);
+        group.oracle = std::make_unique<const MeshOracle>(group.checked.mended ? *group.checked.mended
+                                                                               : clean_mesh(*group.mesh).mesh);
       }
     });
   }
@@ -128,8 +132,9 @@ class Chooser {
   // The heads of one mesh.
   struct Group {
     const TriangleMesh* mesh = nullptr;
-    std::vector<std::uint32_t> heads;
-    std::unique_ptr<const MeshOracle> oracle;
+    std::vector<std::uint32_t> heads{};
+    CheckedMesh checked{};
+    std::unique_ptr<const MeshOracle> oracle{};
     bool changed = false;  // since the heads were judged together
   };
 
@@ -139,7 +144,7 @@ class Chooser {
 
   void add_to_group(std::uint32_t i) {
     const auto known = std::ranges::find(groups_, inputs_[i].mesh, &Group::mesh);
-    if (known == groups_.end()) return groups_.push_back({inputs_[i].mesh, {i}, nullptr, false});
+    if (known == groups_.end()) return groups_.push_back({.mesh = inputs_[i].mesh, .heads = {i}});
     known->heads.push_back(i);
     known->changed = true;
   }
@@ -166,6 +171,7 @@ class Chooser {
         descriptions.back().section_vertices = level.section_vertices;
         descriptions.back().longitudinal_subdivision = level.longitudinal_subdivision;
         inputs.push_back(inputs_[i]);
+        inputs.back().checked = &group.checked;
       }
     }
     for (std::size_t k = 0; k < inputs.size(); ++k) inputs[k].description = &descriptions[k];

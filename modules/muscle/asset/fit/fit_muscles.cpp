@@ -160,7 +160,8 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   FittedMuscle fitted;
   const MuscleDescription& description = *input.description;
   const std::vector<glm::dvec3> points = section_points(description, rest_bones);
-  const CheckedMesh checked = check_mesh(*input.mesh);
+  const CheckedMesh own = input.checked != nullptr ? CheckedMesh{} : check_mesh(*input.mesh);
+  const CheckedMesh& checked = input.checked != nullptr ? *input.checked : own;
   const TriangleMesh& mesh = checked.mended ? *checked.mended : *input.mesh;
   if (mesh.indices.empty()) {
     if (warn_of_stray(input, fitted)) return fitted;
@@ -177,7 +178,7 @@ FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_b
   const std::array areas{find_area(input, checked, mesh, 0), find_area(input, checked, mesh, 1)};
   const LineFit fit = fit_line(surface, points, origin_bone, description.section_vertices, areas, options);
   std::string defects = checked.defects;
-  if (!checked.mended && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
+  if (input.checked == nullptr && !checked.mended && surface.met_overlaps()) defects = clean_mesh(mesh).defects.to_text();
   if (!fit.any_hit) {
     if (region != nullptr && std::ranges::none_of(mesh.indices, [&](std::uint32_t v) {
           return region->contains(glm::dvec3(mesh.positions[v]));

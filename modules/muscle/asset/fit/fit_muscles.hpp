@@ -68,11 +68,16 @@ struct FittedMuscle {
   Diagnostics diagnostics;              // warnings only
 };
 
+struct CheckedMesh;
+
 struct FitInput {
   const MuscleDescription* description = nullptr;
   const TriangleMesh* mesh = nullptr;  // in the rest bones' space, m; null: none, not fitted and nothing said
   // Triangles of the mesh that are attachment area at the origin and at the insertion; empty: none.
   std::array<std::vector<std::uint32_t>, 2> areas;
+  // The mesh as check_mesh gives it, for callers that fit to it again and again; null: it is checked here. With it,
+  // overlaps that only the fit meets are not told.
+  const CheckedMesh* checked = nullptr;
 };
 
 // Fits each input, at the |C| and LSS of its description; one result an input. Inputs that share a mesh (the same

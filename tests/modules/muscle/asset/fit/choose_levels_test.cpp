@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/muscle/asset/fit/check_mesh.hpp"
 #include "modules/muscle/asset/fit/compare_fit.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -95,6 +96,19 @@ TEST_F(ChooseLevels, AMuscleThatCannotBeBuiltDoesNotStopOthers) {
     EXPECT_EQ(choices[1].level, choose(0.015f).level);
     EXPECT_GT(choices[1].distance, 0.0f);
   }
+}
+
+TEST_F(ChooseLevels, OfADefectiveMeshDistancesAreThoseOfALaterFit) {
+  ball.indices.erase(ball.indices.begin() + 600, ball.indices.begin() + 606);
+  const ChosenLevel choice = choose(0.015f);
+  EXPECT_TRUE(choice.kept);
+  EXPECT_NEAR(distance_at(choice.level), choice.distance, 1e-4);  // here to the mesh as it is, not mended
+  // A mesh that was checked before gives the same fit.
+  const MuscleDescription at = at_level(choice.level);
+  const CheckedMesh checked = check_mesh(ball);
+  ASSERT_FALSE(checked.sound);
+  const FitInput input{.description = &at, .mesh = mesh, .areas = {}, .checked = &checked};
+  EXPECT_EQ(fit_muscles({&input, 1}, bones)[0].fit.radii, fit_at(choice.level).fit.radii);
 }
 
 TEST_F(ChooseLevels, HeadsOfOneMeshKeepTheirBoundsTogether) {
