@@ -18,11 +18,6 @@ std::uint32_t round_up(std::uint32_t value, std::uint32_t multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
-glm::dvec3 rest_place(const AttachmentDescription& attachment, std::span<const glm::mat4> bones) {
-  return glm::dvec3(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]) *
-                    glm::dvec4(attachment.position, 1.0));
-}
-
 std::uint32_t find_circle(std::uint32_t count, MuscleAsset& asset) {
   for (std::uint32_t i = 0; i < asset.circle_tables.size(); ++i) {
     if (asset.circle_tables[i].section_vertices == count) return i;
@@ -104,6 +99,11 @@ void bind(float weight, const AttachmentDescription& attachment, const glm::vec3
 }
 
 }  // namespace
+
+glm::dvec3 rest_place(const AttachmentDescription& attachment, std::span<const glm::mat4> bones) {
+  return glm::dvec3(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]) *
+                    glm::dvec4(attachment.position, 1.0));
+}
 
 void lay_out_muscles(std::span<const MuscleDescription> descriptions, std::span<const glm::mat4> rest_bones,
                      MuscleAsset& asset) {

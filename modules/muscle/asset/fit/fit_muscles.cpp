@@ -17,6 +17,7 @@
 #include "modules/muscle/asset/fit/end_area.hpp"
 #include "modules/muscle/asset/fit/fit_line.hpp"
 #include "modules/muscle/asset/fit/head_region.hpp"
+#include "modules/muscle/asset/lay_out_muscles.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -25,8 +26,7 @@ namespace {
 std::vector<glm::dvec3> attachment_points(const MuscleDescription& description, std::span<const glm::mat4> bones) {
   std::vector<glm::dvec3> points;
   for (const AttachmentDescription& attachment : description.attachments) {
-    points.emplace_back(glm::dmat4(bones[static_cast<std::size_t>(attachment.bone)]) *
-                        glm::dvec4(attachment.position, 1.0));
+    points.push_back(rest_place(attachment, bones));
   }
   return points;
 }
@@ -241,7 +241,7 @@ std::vector<std::optional<HeadRegion>> find_regions(std::span<const FitInput> in
     for (std::size_t j = 0; j < inputs.size(); ++j) {
       if (!wanted[j] || inputs[j].mesh != inputs[i].mesh) continue;
       if (i == j) own = lines.size();
-      lines.push_back(section_points(*inputs[j].description, rest_bones));
+      lines.push_back(attachment_points(*inputs[j].description, rest_bones));
     }
     if (lines.size() > 1) regions[i].emplace(lines, own);
   }

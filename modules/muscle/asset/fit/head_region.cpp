@@ -1,7 +1,6 @@
 #include "modules/muscle/asset/fit/head_region.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -12,7 +11,6 @@ namespace {
 constexpr double kOverlap = 0.1;
 constexpr int kSteps = 64;        // along a line as long as the head
 constexpr int kBisections = 30;
-constexpr double kStraight = 1.0e-9;  // of a line's length: what rounding leaves of points that subdivide it
 
 double distance_to(std::span<const glm::dvec3> line, const glm::dvec3& point) {
   double least = std::numeric_limits<double>::infinity();
@@ -25,29 +23,15 @@ double distance_to(std::span<const glm::dvec3> line, const glm::dvec3& point) {
   return least;
 }
 
-// Without the points that lie between their neighbours: the same line, of as many pieces as it has corners.
-std::vector<glm::dvec3> without_subdivision(std::span<const glm::dvec3> line) {
-  std::vector<glm::dvec3> corners;
-  for (const glm::dvec3& point : line) {
-    if (corners.size() > 1) {
-      const std::array<glm::dvec3, 2> straight{corners[corners.size() - 2], point};
-      const double tolerance = kStraight * glm::distance(straight[0], straight[1]);
-      if (distance_to(straight, corners.back()) <= tolerance) corners.pop_back();
-    }
-    corners.push_back(point);
-  }
-  return corners;
-}
-
 }  // namespace
 
 HeadRegion::HeadRegion(std::span<const std::vector<glm::dvec3>> lines, std::size_t own)
-    : own_(without_subdivision(lines[own])) {
+    : own_(lines[own]) {
   double length = 0.0;
   for (std::size_t i = 1; i < own_.size(); ++i) length += glm::distance(own_[i - 1], own_[i]);
   step_ = length / kSteps;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (i != own) others_.push_back(without_subdivision(lines[i]));
+    if (i != own) others_.push_back(lines[i]);
   }
 }
 
@@ -85,18 +69,6 @@ void HeadRegion::clip(const glm::dvec3& origin, const glm::dvec3& direction, std
     }
     if (was_mine) intervals.back().to = interval.to;
   }
-}
-
-std::size_t nearest_head(std::span<const std::vector<glm::dvec3>> lines, const glm::dvec3& point) {
-  std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double distance = distance_to(lines[i], point);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = i;
-  }
-  return nearest;
 }
 
 }  // namespace fascicle::muscle

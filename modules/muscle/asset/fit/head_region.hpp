@@ -13,8 +13,8 @@ namespace fascicle::muscle {
 
 class HeadRegion {
  public:
-  // Polylines through the heads' attachments, m; `own` is the number of this head's. Points that only subdivide a
-  // straight piece are left out, so that they cost nothing.
+  // Polylines through the heads' attachments, m; `own` is the number of this head's. Each piece costs, so they should
+  // not be subdivided.
   HeadRegion(std::span<const std::vector<glm::dvec3>> lines, std::size_t own);
 
   // Neighbouring heads overlap a little, by a share of their distance from their lines, because each approximates the
@@ -25,16 +25,10 @@ class HeadRegion {
   void clip(const glm::dvec3& origin, const glm::dvec3& direction, std::size_t first,
             std::vector<InsideInterval>& intervals) const;
 
-  // Straight pieces of this head's line.
-  std::size_t piece_count() const { return own_.size() - 1; }
-
  private:
   std::vector<glm::dvec3> own_;
   std::vector<std::vector<glm::dvec3>> others_;
   double step_;  // m: borders nearer to each other along a line may be overlooked
 };
-
-// The head whose line is nearest to the point; of several, the first.
-std::size_t nearest_head(std::span<const std::vector<glm::dvec3>> lines, const glm::dvec3& point);
 
 }  // namespace fascicle::muscle
