@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -155,13 +156,11 @@ TriangleMesh find_area(const FitInput& input, const CheckedMesh& checked, const 
   return take_triangles(mesh, triangles);
 }
 
-FittedMuscle fit_muscle(const FitInput& input, std::span<const glm::mat4> rest_bones, const RayDevice& device,
-                        const FitOptions& options, const HeadRegion* region) {
+FittedMuscle fit_muscle(const FitInput& input, const CheckedMesh& checked, std::span<const glm::mat4> rest_bones,
+                        const RayDevice& device, const FitOptions& options, const HeadRegion* region) {
   FittedMuscle fitted;
   const MuscleDescription& description = *input.description;
   const std::vector<glm::dvec3> points = section_points(description, rest_bones);
-  const CheckedMesh own = input.checked != nullptr ? CheckedMesh{} : check_mesh(*input.mesh);
-  const CheckedMesh& checked = input.checked != nullptr ? *input.checked : own;
   const TriangleMesh& mesh = checked.mended ? *checked.mended : *input.mesh;
   if (mesh.indices.empty()) {
     if (warn_of_stray(input, fitted)) return fitted;
@@ -248,6 +247,26 @@ std::vector<std::optional<HeadRegion>> find_regions(std::span<const FitInput> in
   return regions;
 }
 
+// By input: its mesh, checked. A mesh of several heads is checked once, one that the caller has checked not at all.
+std::vector<std::shared_ptr<const CheckedMesh>> check_meshes(std::span<const FitInput> inputs,
+                                                             const std::vector<bool>& wanted) {
+  std::vector<std::shared_ptr<const CheckedMesh>> checked(inputs.size());
+  std::vector<std::size_t> first(inputs.size());  // with the same mesh
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto same = [&](std::size_t j) { return wanted[j] && inputs[j].mesh == inputs[i].mesh; };
+    while (first[i] < i && !same(first[i])) ++first[i];
+  }
+  parallel::for_range(inputs.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!wanted[i] || first[i] != i) continue;
+      if (inputs[i].checked != nullptr) checked[i] = {std::shared_ptr<void>(), inputs[i].checked};
+      else checked[i] = std::make_shared<const CheckedMesh>(check_mesh(*inputs[i].mesh));
+    }
+  });
+  for (std::size_t i = 0; i < inputs.size(); ++i) checked[i] = checked[first[i]];
+  return checked;
+}
+
 }  // namespace
 
 std::vector<FittedMuscle> fit_muscles(std::span<const FitInput> inputs, std::span<const glm::mat4> rest_bones,
@@ -259,11 +278,12 @@ std::vector<FittedMuscle> fit_muscles(std::span<const FitInput> inputs, std::spa
     wanted[i] = inputs[i].mesh != nullptr && can_be_built(*inputs[i].description, rest_bones);
   }
   const std::vector<std::optional<HeadRegion>> regions = find_regions(inputs, wanted, rest_bones);
+  const std::vector<std::shared_ptr<const CheckedMesh>> checked = check_meshes(inputs, wanted);
   const RayDevice device;
   parallel::for_range(inputs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const HeadRegion* region = regions[i] ? &*regions[i] : nullptr;
-      if (wanted[i]) fitted[i] = fit_muscle(inputs[i], rest_bones, device, options, region);
+      if (wanted[i]) fitted[i] = fit_muscle(inputs[i], *checked[i], rest_bones, device, options, region);
     }
   });
   warn_of_same_lines(inputs, rest_bones, fitted);
