@@ -8,7 +8,6 @@
 #include <numeric>
 #include <optional>
 
-#include "engine/geometry/clean_mesh.hpp"
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/fit/check_mesh.hpp"
 #include "modules/muscle/asset/fit/compare_fit.hpp"
@@ -106,8 +105,7 @@ class Chooser {
       for (std::size_t g = begin; g < end; ++g) {
         Group& group = groups_[g];
         group.checked = check_mesh(*group.mesh);
-        group.oracle = std::make_unique<const MeshOracle>(group.checked.mended ? *group.checked.mended
-                                                                               : clean_mesh(*group.mesh).mesh);
+        group.oracle = std::make_unique<const MeshOracle>(group.checked.mended.value_or(*group.mesh));
       }
     });
   }
