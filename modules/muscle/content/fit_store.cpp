@@ -25,7 +25,6 @@ constexpr std::int32_t kStoreVersion = 1;
 constexpr std::size_t kMostMuscles = 100000;
 constexpr std::size_t kMostSections = (kMostViaPoints + 1) * 64 + 1;
 
-constexpr std::array<std::string_view, 4> kOutcomes{"fitted", "partial", "missed", "outside"};  // by SectionOutcome
 
 // --- reading ---
 
@@ -72,7 +71,7 @@ std::optional<SectionReport> read_section(const JsonNode& node, Diagnostics& dia
   sound = object.require("rescued", section.rescued) && sound;
   std::size_t outcome = 0;
   sound = object.require_choice("outcome", outcome,
-                                {kOutcomes[0], kOutcomes[1], kOutcomes[2], kOutcomes[3]}) &&
+                                {kOutcomeNames[0], kOutcomeNames[1], kOutcomeNames[2], kOutcomeNames[3]}) &&
           sound;
   object.finish();
   section.outcome = static_cast<SectionOutcome>(outcome);
@@ -177,8 +176,6 @@ void append_level(const FittedLevel& level, std::string& out) {
 }
 
 }  // namespace
-
-std::string_view name_of(SectionOutcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
 
 void append_json(std::span<const SectionReport> sections, std::string& out) {
   for (std::size_t k = 0; k < sections.size(); ++k) {

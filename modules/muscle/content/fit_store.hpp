@@ -9,7 +9,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/content/result.hpp"
@@ -29,9 +28,6 @@ struct MuscleFits {
   std::uint64_t inputs = 0;  // hash of what was fitted, and how
   std::vector<FittedLevel> levels;
 };
-
-// "fitted", "partial", "missed", "outside".
-std::string_view name_of(SectionOutcome outcome);
 
 // The sections as the elements of a JSON array; lengths in m.
 void append_json(std::span<const SectionReport> sections, std::string& out);

@@ -25,6 +25,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -51,6 +52,9 @@ enum class SectionOutcome {
   kMissed,   // none did: the section's plane misses the mesh
   kOutside,  // the centre lies outside of the mesh
 };
+
+inline constexpr std::array<std::string_view, 4> kOutcomeNames{"fitted", "partial", "missed", "outside"};
+constexpr std::string_view name_of(SectionOutcome outcome) { return kOutcomeNames[static_cast<std::size_t>(outcome)]; }
 
 struct SectionReport {
   std::uint32_t hits = 0, misses = 0;  // of the |C| final rays
