@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include "engine/content/quote_json.hpp"
-#include "engine/content/triangle_mesh.hpp"
-#include "engine/geometry/clean_mesh.hpp"
-#include "modules/muscle/asset/muscle_asset.hpp"
+#include "tools/fascicle_cook/mesh_groups.hpp"
 
 namespace fascicle::cook {
 namespace {
@@ -81,22 +77,14 @@ void append_muscle_json(const FitReport& report, std::size_t i, std::string& out
 FitReport make_fit_report(const CharacterAsset& character, const std::string& only) {
   FitReport report;
   report.character = &character;
-  // Heads of one mesh are compared together.
-  std::map<const TriangleMesh*, std::vector<std::uint32_t>> heads;  // looked up by muscle, in order
-  for (std::uint32_t i = 0; i < character.descriptions.size(); ++i) {
-    const auto mesh = character.muscle_meshes.find(character.descriptions[i].name);
-    if (mesh == character.muscle_meshes.end() || character.fits[i].levels.front().fitted.fit.radii.empty()) continue;
-    heads[mesh->second.get()].push_back(i);
-  }
-  std::map<std::uint32_t, FitComparison> compared;
-  for (const auto& [mesh, group] : heads) {
-    if (!only.empty() && std::ranges::none_of(group, [&](std::uint32_t i) { return character.descriptions[i].name == only; })) {
-      continue;
-    }
-    const MeshOracle oracle(clean_mesh(*mesh).mesh);
-    const std::vector<FitComparison> results = compare_heads(*character.muscles, group, oracle);
-    for (std::size_t k = 0; k < group.size(); ++k) compared[group[k]] = results[k];
-  }
+  std::vector<MeshGroup> groups = group_by_mesh(character);
+  std::erase_if(groups, [&](const MeshGroup& group) {
+    const auto wanted = [&](std::uint32_t i) { return only.empty() || character.descriptions[i].name == only; };
+    return std::ranges::none_of(group.muscles, wanted);
+  });
+  std::vector<bool> fitted;
+  for (const MuscleFits& fits : character.fits) fitted.push_back(!fits.levels.front().fitted.fit.radii.empty());
+  const std::vector<FitComparison> compared = compare_groups(groups, *character.muscles, fitted);
   for (std::uint32_t i = 0; i < character.descriptions.size(); ++i) {
     const std::string& name = character.descriptions[i].name;
     if (!character.muscle_meshes.contains(name) || (!only.empty() && name != only)) continue;

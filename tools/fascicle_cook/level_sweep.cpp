@@ -4,15 +4,12 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include "engine/animation/skeleton.hpp"
-#include "engine/content/triangle_mesh.hpp"
-#include "engine/geometry/clean_mesh.hpp"
-#include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/fit/fit_muscles.hpp"
+#include "tools/fascicle_cook/mesh_groups.hpp"
 
 namespace fascicle::cook {
 namespace {
@@ -23,34 +20,7 @@ constexpr double kMm = 1000.0;
 constexpr std::array<std::uint32_t, 7> kSectionVertices{6, 8, 10, 12, 18, 24, 36};
 constexpr std::array<std::uint32_t, 4> kSubdivisions{0, 1, 2, 3};
 
-// The muscles that share one mesh.
-struct Group {
-  const TriangleMesh* mesh = nullptr;
-  std::vector<std::uint32_t> muscles;
-  std::unique_ptr<const MeshOracle> oracle;
-};
-
-std::vector<Group> group_by_mesh(const CharacterAsset& character) {
-  std::vector<Group> groups;
-  for (std::uint32_t i = 0; i < character.descriptions.size(); ++i) {
-    const auto mesh = character.muscle_meshes.find(character.descriptions[i].name);
-    if (mesh == character.muscle_meshes.end()) continue;
-    auto known = std::ranges::find(groups, mesh->second.get(), &Group::mesh);
-    if (known == groups.end()) {
-      groups.push_back({mesh->second.get(), {}, nullptr});
-      known = groups.end() - 1;
-    }
-    known->muscles.push_back(i);
-  }
-  parallel::for_range(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) {
-      groups[g].oracle = std::make_unique<const MeshOracle>(clean_mesh(*groups[g].mesh).mesh);
-    }
-  });
-  return groups;
-}
-
-SweptLevel sweep_level(const CharacterAsset& character, const std::vector<Group>& groups, std::uint32_t section_vertices,
+SweptLevel sweep_level(const CharacterAsset& character, const std::vector<MeshGroup>& groups, std::uint32_t section_vertices,
                        std::uint32_t subdivision) {
   std::vector<MuscleDescription> descriptions = character.descriptions;
   std::vector<FitInput> inputs(descriptions.size());
@@ -59,28 +29,19 @@ SweptLevel sweep_level(const CharacterAsset& character, const std::vector<Group>
     descriptions[i].longitudinal_subdivision = subdivision;
     inputs[i].description = &descriptions[i];
   }
-  for (const Group& group : groups) {
+  for (const MeshGroup& group : groups) {
     for (const std::uint32_t i : group.muscles) inputs[i].mesh = group.mesh;
   }
   std::vector<MuscleFit> fits;
-  for (FittedMuscle& fitted : fit_muscles(inputs, character.skeleton->rest_world)) fits.push_back(std::move(fitted.fit));
+  for (FittedMuscle& muscle : fit_muscles(inputs, character.skeleton->rest_world)) fits.push_back(std::move(muscle.fit));
   const auto asset = build_muscle_asset(descriptions, character.skeleton->rest_world, fits);
   SweptLevel level{section_vertices, subdivision, {}, {}};
   if (!asset) return level;
-  std::vector<FitComparison> compared(descriptions.size());
-  parallel::for_range(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) {
-      std::vector<std::uint32_t> heads;
-      for (const std::uint32_t i : groups[g].muscles) {
-        if (!fits[i].radii.empty()) heads.push_back(i);
-      }
-      if (heads.empty()) continue;
-      const std::vector<FitComparison> results = compare_heads(**asset, heads, *groups[g].oracle);
-      for (std::size_t k = 0; k < heads.size(); ++k) compared[heads[k]] = results[k];
-    }
-  });
+  std::vector<bool> fitted(fits.size());
+  for (std::size_t i = 0; i < fits.size(); ++i) fitted[i] = !fits[i].radii.empty();
+  const std::vector<FitComparison> compared = compare_groups(groups, **asset, fitted);
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
-    if (fits[i].radii.empty()) continue;
+    if (!fitted[i]) continue;
     level.muscles.push_back(i);
     level.comparisons.push_back(compared[i]);
   }
@@ -102,7 +63,7 @@ double max_over(const std::vector<FitComparison>& all, SurfaceDistance FitCompar
 }  // namespace
 
 std::vector<SweptLevel> sweep_levels(const CharacterAsset& character) {
-  const std::vector<Group> groups = group_by_mesh(character);
+  const std::vector<MeshGroup> groups = group_by_mesh(character);
   std::vector<SweptLevel> levels;
   for (const std::uint32_t subdivision : kSubdivisions) {
     for (const std::uint32_t section_vertices : kSectionVertices) {
