@@ -126,9 +126,10 @@ class FaultReport {
   std::set<Place> known_;
 };
 
-// The muscles that could be resolved are checked, and those without a fault built, even where the file has errors
-// elsewhere: an author sees what is wrong with all of them at once.
-void build_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& asset, Diagnostics& diagnostics) {
+// Fills asset.descriptions. The muscles that could be resolved are checked, and those without a fault built in their
+// unfitted shape, even where the file has errors elsewhere: an author sees what is wrong with all of them at once. What is
+// built here only tells faults; build_levels builds what is used.
+void check_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& asset, Diagnostics& diagnostics) {
   for (const ResolvedMuscle& muscle : resolved) asset.descriptions.push_back(muscle.description);
   if (asset.descriptions.empty()) return;
   const std::span<const glm::mat4> bones = asset.skeleton->rest_world;
@@ -140,9 +141,8 @@ void build_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& ass
     if (found.ok()) sound.push_back(description);
     report.add(std::move(found));
   }
-  Result<std::shared_ptr<const MuscleAsset>> built = build_muscle_asset(sound, bones);
-  for (const Diagnostic& fault : built.diagnostics().errors) report.add({.errors = {fault}, .warnings = {}});
-  diagnostics.append({.errors = {}, .warnings = std::move(built.diagnostics().warnings)});
+  Diagnostics built = std::move(build_muscle_asset(sound, bones).diagnostics());
+  for (const Diagnostic& fault : built.errors) report.add({.errors = {fault}, .warnings = {}});
 }
 
 // The stored fits, where there is use for them. That they are broken is no error: muscles are fitted anew.
@@ -193,7 +193,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   for (std::size_t i = chain.files().size(); i-- > 0;) {
     load_muscle_meshes(chain.files()[i]->content, chain.path(i).parent_path(), resolved, sources, *asset, diagnostics);
   }
-  if (asset->skeleton) build_muscles(resolved, *asset, diagnostics);
+  if (asset->skeleton) check_muscles(resolved, *asset, diagnostics);
   if (diagnostics.ok() && !resolved.empty()) {
     FitStore store;
     if (options.fit == FitMode::kStored) store = load_fits(file, *asset, sources, diagnostics);
