@@ -17,6 +17,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/content/result.hpp"
+#include "modules/muscle/asset/collision/collision_description.hpp"
 #include "modules/muscle/asset/muscle_description.hpp"
 #include "modules/muscle/content/fit_store.hpp"
 
@@ -30,6 +31,7 @@ struct TriangleMesh;
 
 namespace fascicle::muscle {
 
+class BoneField;
 struct MuscleAsset;
 struct MuscleLevels;
 
@@ -68,6 +70,9 @@ struct CharacterAsset {
   std::vector<MuscleFits> fits;                        // by description; empty where none was asked for
   // Anatomical meshes by the muscle's name, in the character's rest space (m). Heads of one mesh share the object.
   std::map<std::string, std::shared_ptr<const TriangleMesh>> muscle_meshes;
+  CollisionDescription collision;                      // enabled and without tags where the file names none
+  // By bone of the skeleton: how far a point is from it; null where a bone has no mesh.
+  std::vector<std::shared_ptr<const BoneField>> bone_fields;
   std::vector<std::filesystem::path> files;            // everything that was read, the character file first
 };
 
