@@ -110,6 +110,9 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
     }
   }
   if (asset.levels) spawned.musculature = muscle::spawn_musculature(world_, spawned.entity, asset.levels);
+  if (asset.levels && options_.collision) {
+    muscle::add_collision(world_, spawned.musculature, asset.collision_levels, asset.collision.settings);
+  }
   for (const std::shared_ptr<const SkinAsset>& skin : asset.skins) {
     const ecs::Entity entity = world_.create();
     world_.add(entity, SkinInstance{skin, spawned.entity});

@@ -21,6 +21,7 @@ struct SimulationOptions {
   int workers = 0;                       // 0: one for each core
   int copies = 1;                        // how often the scene's characters are spawned, on a grid
   SimdLevel simd = detect_simd();
+  bool collision = true;                 // of muscles with bones and each other
   bool skin_meshes = true;               // off where nobody sees the skin
 };
 

@@ -8,9 +8,13 @@
 #include "engine/ecs/world.hpp"
 #include "engine/loop/cost_ledger.hpp"
 #include "engine/math/state_hash.hpp"
+#include "engine/loop/frame_time.hpp"
+#include "modules/muscle/asset/collision/collision_asset.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/asset/muscle_levels.hpp"
+#include "modules/muscle/components/collision_scratch.hpp"
 #include "modules/muscle/components/lay_out_state.hpp"
+#include "modules/muscle/components/muscle_collision.hpp"
 #include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/components/musculature.hpp"
 #include "modules/muscle/systems/5_present/measure_muscles.hpp"
@@ -21,8 +25,12 @@ namespace fascicle::muscle {
 namespace {
 
 // The systems whose time the ledger knows.
-constexpr std::array<std::string_view, 6> kTimedSystems = {"select_levels", "drive_action_lines", "build_frames",
-                                                           "find_tendons",  "measure_muscles",    "write_surfaces"};
+constexpr std::array<std::string_view, 7> kTimedSystems = {
+    "select_levels", "drive_action_lines", "build_frames", "find_tendons", "solve_muscles", "measure_muscles",
+    "write_surfaces"};
+
+// Room for pairs that touch: a muscle among its neighbours and bones.
+constexpr std::size_t kContactsPerMuscle = 24;
 
 template <class T>
 void hash_arrays(std::initializer_list<const AlignedVector<T>*> arrays, StateHash& hash) {
@@ -81,6 +89,8 @@ void prepare_muscles(ecs::World& world, const MuscleSettings& settings) {
   world.set_resource(usable);
   if (world.try_resource<Viewer>() == nullptr) world.set_resource(Viewer{});
   if (world.try_resource<CostLedger>() == nullptr) world.set_resource(CostLedger{});
+  if (world.try_resource<FrameTime>() == nullptr) world.set_resource(FrameTime{});
+  if (world.try_resource<CollisionScratch>() == nullptr) world.set_resource(CollisionScratch{});
   for (const std::string_view system : kTimedSystems) world.resource<CostLedger>().add_system(system);
 }
 
@@ -96,6 +106,26 @@ ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::sha
   world.get<CrossSections>(entity).ends = finest.ends;
   world.add(entity, MuscleDetail{.levels = std::move(levels), .twist = std::vector<float>(finest.size())});
   return entity;
+}
+
+void add_collision(ecs::World& world, ecs::Entity musculature,
+                   std::span<const std::shared_ptr<const CollisionAsset>> levels, const CollisionSettings& settings) {
+  if (levels.empty()) return;
+  MuscleCollision collision;
+  collision.settings = settings;
+  collision.levels.assign(levels.begin(), levels.end());
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    lay_out(*levels[level], collision);
+    world.resource<CollisionScratch>().reserve(*levels[level]);
+  }
+  for (AlignedVector<float>& carried : collision.carried) carried.reserve(collision.radii.size());
+  MuscleContacts contacts;
+  const std::size_t pairs = kContactsPerMuscle * levels.front()->muscles->size();
+  for (std::vector<MuscleContact>* list : {&contacts.now, &contacts.began, &contacts.ended, &contacts.gone}) {
+    list->reserve(pairs);
+  }
+  world.add(musculature, std::move(collision));
+  world.add(musculature, std::move(contacts));
 }
 
 void detach_muscle(ecs::World& world, ecs::Entity entity) {

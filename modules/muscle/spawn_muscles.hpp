@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,12 +21,14 @@ class World;
 
 namespace fascicle::muscle {
 
+struct CollisionAsset;
+struct CollisionSettings;
 struct MuscleAsset;
 struct MuscleLevels;
 
 // Must be called once per world before a schedule with muscle systems runs; again to change the settings. Gives the
-// world the resources MuscleSettings and, where it has none, Viewer (components/muscle_detail.hpp; nobody looks) and
-// CostLedger (engine/loop/cost_ledger.hpp).
+// world the resources MuscleSettings and, where it has none, Viewer (components/muscle_detail.hpp; nobody looks),
+// CostLedger (engine/loop/cost_ledger.hpp), FrameTime and CollisionScratch.
 // A SIMD level that the processor lacks is lowered to the best it has.
 void prepare_muscles(ecs::World& world, const MuscleSettings& settings = {});
 
@@ -37,6 +40,11 @@ ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::sha
 // The same with several levels of detail (asset/muscle_levels.hpp), the finest at first; `select_levels` goes by what
 // the world's resource Viewer sees of it. Surfaces and their indices change with the level.
 ecs::Entity spawn_musculature(ecs::World& world, ecs::Entity character, std::shared_ptr<const MuscleLevels> levels);
+
+// Lets the muscles of a musculature collide with bones and each other from the next step on: gives it MuscleCollision
+// and MuscleContacts. `levels` belong to the assets that it was spawned with, in their order.
+void add_collision(ecs::World& world, ecs::Entity musculature,
+                   std::span<const std::shared_ptr<const CollisionAsset>> levels, const CollisionSettings& settings);
 
 // Ends one muscle: its entity is destroyed, its surface collapses to its origin's place and draws nothing, its
 // measures are zero. The others go on. No effect on an entity that is not a muscle.

@@ -194,10 +194,11 @@ void bind_points(std::span<const MuscleDescription> descriptions, std::span<cons
       bind(s, to, displacement, rest_bones, binding.second);
       blended.push_back(binding);
     }
-    // The functional length must not see the fit's displacement.
+    // The functional length must see neither the fit's displacement nor what collision moves, which is anything but
+    // the ends.
     muscle.first_attachment_slot = muscle.first_slot;
     muscle.attachment_slot_step = kLanes << muscle.subdivision;
-    if (displaced) {
+    if (displaced || attachments.size() > 2) {
       muscle.first_attachment_slot = asset.slot_count;
       muscle.attachment_slot_step = 1;
       for (const AttachmentDescription& attachment : attachments) {

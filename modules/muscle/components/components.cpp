@@ -4,6 +4,7 @@
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/components/action_lines.hpp"
 #include "modules/muscle/components/cross_sections.hpp"
+#include "modules/muscle/components/muscle_collision.hpp"
 #include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/components/muscle_measures.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
@@ -31,6 +32,15 @@ std::size_t heap_bytes(const ActionLines& lines) {
 std::size_t heap_bytes(const CrossSections& sections) {
   return bytes_of(sections.ux, sections.uy, sections.uz, sections.vx, sections.vy, sections.vz, sections.arc,
                   sections.radii, sections.twist, sections.ends);
+}
+
+std::size_t heap_bytes(const MuscleCollision& c) {
+  return bytes_of(c.levels, c.offset_x, c.offset_y, c.offset_z, c.radii, c.rest_radii, c.carried[0], c.carried[1],
+                  c.carried[2], c.carried[3], c.target_area, c.area, c.depth, c.cost);
+}
+
+std::size_t heap_bytes(const MuscleContacts& contacts) {
+  return bytes_of(contacts.now, contacts.began, contacts.ended, contacts.gone);
 }
 
 std::size_t heap_bytes(const MuscleDetail& detail) { return bytes_of(detail.twist); }

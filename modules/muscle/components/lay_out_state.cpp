@@ -1,5 +1,6 @@
 #include "modules/muscle/components/lay_out_state.hpp"
 
+#include "modules/muscle/asset/collision/collision_asset.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 
 namespace fascicle::muscle {
@@ -44,6 +45,19 @@ void lay_out(const MuscleAsset& asset, MuscleSurfaces& surfaces) {
   surfaces.vertices.assign(asset.vertex_count, SurfaceVertex{});
   surfaces.rows.assign(asset.row_count, SurfaceRow{});
   for (std::uint32_t row = 0; row < asset.row_count; ++row) surfaces.rows[row].muscle = asset.row_muscles[row];
+}
+
+void lay_out(const CollisionAsset& asset, MuscleCollision& collision) {
+  for (AlignedVector<float>* axis : {&collision.offset_x, &collision.offset_y, &collision.offset_z}) {
+    axis->assign(asset.muscles->slot_count, 0.0f);
+  }
+  collision.radii = collision.rest_radii = asset.muscles->rest_radii;
+  collision.target_area.assign(asset.sections.size(), 0.0f);
+  collision.area.assign(asset.sections.size(), 0.0f);
+  collision.depth.assign(asset.muscles->size(), 0.0f);
+  collision.cost.assign(asset.muscles->size(), 0.0f);
+  collision.morph = 0.0f;
+  collision.asset = &asset;
 }
 
 }  // namespace fascicle::muscle

@@ -1,0 +1,236 @@
+#include "modules/muscle/asset/collision/collision_asset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/kernels/collision/place_samples.hpp"
+#include "modules/muscle/kernels/collision/solve_collision.hpp"
+#include "modules/muscle/kernels/inflate_section.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr float kBorderWidth = 0.01f;  // m: over this from a tendon's border on, a section becomes belly
+constexpr float kOverlapSlack = 1.0e-4f;  // m: allowed at rest beyond what was found there
+
+// The bone that carries most of each slot's point.
+std::vector<std::uint32_t> carrying_bones(const MuscleAsset& muscles) {
+  std::vector<std::uint32_t> bones(muscles.slot_count, 0);
+  for (const PointBinding& point : muscles.points) {
+    bones[point.slot] = point.second[3] > point.first[3] ? point.second_bone : point.first_bone;
+  }
+  return bones;
+}
+
+float arc_at(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k) { return muscles.rest_arc[muscles.slot(m, k)]; }
+
+void list_sections(CollisionAsset& asset) {
+  const MuscleAsset& muscles = *asset.muscles;
+  const std::vector<std::uint32_t> bones = carrying_bones(muscles);
+  for (std::uint32_t m = 0; m < muscles.size(); ++m) {
+    const MuscleLayout& layout = muscles.muscles[m];
+    const std::uint32_t last = layout.section_count - 1;
+    const float length = arc_at(muscles, m, last);
+    const float belly_from = layout.tendon_lengths[0], belly_to = length - layout.tendon_lengths[1];
+    asset.first_section.push_back(static_cast<std::uint32_t>(asset.sections.size()));
+    asset.rest_line.push_back(length);
+    asset.rest_belly.push_back(std::max(belly_to - belly_from, 0.1f * length));
+    for (std::uint32_t k = 0; k <= last; ++k) {
+      CollisionSection section;
+      section.muscle = m;
+      section.section = k;
+      section.slot = muscles.slot(m, k);
+      section.first_radius = muscles.radius(m, k);
+      section.count = layout.section_vertices;
+      section.bone = bones[section.slot];
+      section.end = k == 0 || k == last;
+      section.via = !section.end && k % (1u << layout.subdivision) == 0;
+      section.rest_area = section_area(std::span(&muscles.rest_radii[section.first_radius], section.count));
+      const float arc = arc_at(muscles, m, k);
+      float inside = kBorderWidth;
+      if (layout.tendon_drawn[0]) inside = std::min(inside, arc - belly_from);
+      if (layout.tendon_drawn[1]) inside = std::min(inside, belly_to - arc);
+      section.belly = std::clamp(inside / kBorderWidth, 0.0f, 1.0f);
+      asset.sections.push_back(section);
+    }
+  }
+  asset.first_section.push_back(static_cast<std::uint32_t>(asset.sections.size()));
+}
+
+// Rows on the inner sections, and between sections as many as keep the spacing.
+void list_rows(float spacing, CollisionAsset& asset) {
+  const MuscleAsset& muscles = *asset.muscles;
+  const auto add = [&](std::uint32_t section, float weight) {
+    asset.rows.push_back({section, weight, asset.sample_count});
+    asset.sample_count += asset.sections[section].count;
+  };
+  for (std::uint32_t m = 0; m < muscles.size(); ++m) {
+    asset.first_row.push_back(static_cast<std::uint32_t>(asset.rows.size()));
+    const std::uint32_t last = muscles.muscles[m].section_count - 1;
+    for (std::uint32_t k = 0; k < last; ++k) {
+      const std::uint32_t section = asset.first_section[m] + k;
+      if (k > 0) add(section, 0.0f);
+      const float length = arc_at(muscles, m, k + 1) - arc_at(muscles, m, k);
+      const std::uint32_t parts = static_cast<std::uint32_t>(std::clamp(std::ceil(length / spacing), 1.0f, 64.0f));
+      for (std::uint32_t i = 1; i < parts; ++i) {
+        const float weight = static_cast<float>(i) / static_cast<float>(parts);
+        if ((k == 0 && weight < 0.5f) || (k + 1 == last && weight > 0.5f)) continue;
+        add(section, weight);
+      }
+    }
+  }
+  asset.first_row.push_back(static_cast<std::uint32_t>(asset.rows.size()));
+}
+
+float row_fraction(const CollisionAsset& asset, const SampleRow& row) {
+  const CollisionSection& section = asset.sections[row.section];
+  const float from = arc_at(*asset.muscles, section.muscle, section.section);
+  const float to = arc_at(*asset.muscles, section.muscle, section.section + 1);
+  return (from + row.weight * (to - from)) / asset.rest_line[section.muscle];
+}
+
+// Who may touch whom: everybody, but for what tags and ignored pairs say.
+void list_pairs(const CollisionDescription& description, CollisionAsset& asset) {
+  const std::size_t muscle_count = asset.muscles->size(), bone_count = asset.bones.size();
+  asset.muscles_touch.assign(muscle_count * muscle_count, 1);
+  for (std::size_t m = 0; m < muscle_count; ++m) asset.muscles_touch[m * muscle_count + m] = 0;
+  asset.row_touches_bone.assign(asset.rows.size() * bone_count, 1);
+  const auto place_of = [&](std::int32_t bone) {
+    return static_cast<std::size_t>(std::find(asset.bones.begin(), asset.bones.end(), bone) - asset.bones.begin());
+  };
+  for (std::size_t m = 0; m < muscle_count; ++m) {
+    for (std::uint32_t r = asset.first_row[m]; r < asset.first_row[m + 1]; ++r) {
+      const float fraction = row_fraction(asset, asset.rows[r]);
+      const auto covers = [&](const BoneTag& tag) {
+        return tag.muscle == m && !tag.automatic && tag.from <= fraction && fraction <= tag.to;
+      };
+      if (std::none_of(description.bone_tags.begin(), description.bone_tags.end(), covers)) continue;
+      std::fill_n(asset.row_touches_bone.begin() + static_cast<std::ptrdiff_t>(r * bone_count), bone_count, std::uint8_t{0});
+      for (const BoneTag& tag : description.bone_tags) {
+        if (!covers(tag)) continue;
+        for (const std::int32_t bone : tag.bones) {
+          if (const std::size_t place = place_of(bone); place < bone_count) {
+            asset.row_touches_bone[r * bone_count + place] = 1;
+          }
+        }
+      }
+    }
+  }
+  for (const IgnoredPair& pair : description.ignored) {
+    if (pair.bone < 0) {
+      asset.muscles_touch[pair.muscle * muscle_count + pair.other] = 0;
+      asset.muscles_touch[pair.other * muscle_count + pair.muscle] = 0;
+    } else if (const std::size_t place = place_of(pair.bone); place < bone_count) {
+      for (std::uint32_t r = asset.first_row[pair.muscle]; r < asset.first_row[pair.muscle + 1]; ++r) {
+        asset.row_touches_bone[r * bone_count + place] = 0;
+      }
+    }
+  }
+}
+
+// The work's state at rest.
+void load_rest(const CollisionAsset& asset, CollisionWork& work) {
+  const MuscleAsset& muscles = *asset.muscles;
+  work.reserve(asset);
+  for (std::size_t s = 0; s < asset.sections.size(); ++s) {
+    const std::uint32_t slot = asset.sections[s].slot;
+    work.a[s] = glm::vec3(muscles.rest_x[slot], muscles.rest_y[slot], muscles.rest_z[slot]);
+    work.driven[s] = work.a[s];
+    work.u[s] = glm::vec3(muscles.rest_ux[slot], muscles.rest_uy[slot], muscles.rest_uz[slot]);
+    work.v[s] = glm::vec3(muscles.rest_vx[slot], muscles.rest_vy[slot], muscles.rest_vz[slot]);
+    work.t[s] = glm::cross(work.u[s], work.v[s]);
+    work.mobility[s] = 1.0f;
+  }
+  std::copy(muscles.rest_radii.begin(), muscles.rest_radii.end(), work.radii.begin());
+  place_directions(asset, work);
+}
+
+// How deep samples are at rest: what a search without anything allowed finds.
+void allow_rest_overlaps(const CollisionDescription& description, std::span<const glm::mat4> rest_bones,
+                         CollisionAsset& asset) {
+  const std::size_t bone_count = asset.bones.size();
+  asset.row_bone_depths.assign(asset.rows.size() * bone_count, kNoDepths);
+  asset.first_overlap.assign(asset.rows.size() + 1, 0);
+  CollisionWork work;
+  load_rest(asset, work);
+  work.contacts.reserve(std::size_t{16} * asset.sample_count + 1024);
+  find_contacts(asset, description.settings, rest_bones, work);
+
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>> overlaps;  // by row and other muscle
+  for (const Contact& contact : work.contacts) {
+    const float depth = -contact.found + kOverlapSlack;
+    if (depth <= 0.0f) continue;
+    const std::uint32_t count = asset.sections[contact.section].count;
+    if (contact.bone >= 0) {
+      std::uint32_t& first = asset.row_bone_depths[contact.row * bone_count + static_cast<std::size_t>(contact.bone)];
+      if (first == kNoDepths) {
+        first = static_cast<std::uint32_t>(asset.rest_depths.size());
+        asset.rest_depths.resize(first + count, 0.0f);
+      }
+      asset.rest_depths[first + contact.vertex] = std::max(asset.rest_depths[first + contact.vertex], depth);
+    } else {
+      std::vector<float>& depths = overlaps[{contact.row, asset.sections[contact.other_section].muscle}];
+      depths.resize(count, 0.0f);
+      depths[contact.vertex] = std::max(depths[contact.vertex], depth);
+    }
+  }
+  for (const auto& [pair, depths] : overlaps) {
+    ++asset.first_overlap[pair.first + 1];
+    asset.overlaps.push_back({pair.second, static_cast<std::uint32_t>(asset.rest_depths.size())});
+    asset.rest_depths.insert(asset.rest_depths.end(), depths.begin(), depths.end());
+  }
+  for (std::size_t r = 0; r < asset.rows.size(); ++r) asset.first_overlap[r + 1] += asset.first_overlap[r];
+}
+
+}  // namespace
+
+TaggedVertex find_tagged_vertex(const MuscleAsset& muscles, const SectionTag& tag) {
+  const MuscleLayout& layout = muscles.muscles[tag.muscle];
+  const std::uint32_t last = layout.section_count - 1;
+  const float arc = tag.fraction * arc_at(muscles, tag.muscle, last);
+  TaggedVertex found;
+  found.section = last > 1 ? 1 : 0;
+  for (std::uint32_t k = found.section + 1; k < last; ++k) {
+    if (std::abs(arc_at(muscles, tag.muscle, k) - arc) < std::abs(arc_at(muscles, tag.muscle, found.section) - arc)) {
+      found.section = k;
+    }
+  }
+  const float count = static_cast<float>(layout.section_vertices);
+  const float turns = tag.angle / (2.0f * std::numbers::pi_v<float>);
+  found.vertex = static_cast<std::uint32_t>(std::lround((turns - std::floor(turns)) * count)) % layout.section_vertices;
+  return found;
+}
+
+std::shared_ptr<const CollisionAsset> build_collision_asset(std::shared_ptr<const MuscleAsset> muscles,
+                                                            const CollisionDescription& description,
+                                                            std::span<const std::shared_ptr<const BoneField>> fields,
+                                                            std::span<const glm::mat4> rest_bones) {
+  auto asset = std::make_shared<CollisionAsset>();
+  asset->muscles = std::move(muscles);
+  for (std::size_t bone = 0; bone < fields.size(); ++bone) {
+    if (!fields[bone]) continue;
+    asset->bones.push_back(static_cast<std::int32_t>(bone));
+    asset->fields.push_back(fields[bone]);
+  }
+  list_sections(*asset);
+  list_rows(description.settings.sample_spacing, *asset);
+  list_pairs(description, *asset);
+  allow_rest_overlaps(description, rest_bones, *asset);
+  return asset;
+}
+
+std::size_t heap_bytes(const CollisionAsset& asset) {
+  const auto bytes = [](const auto&... arrays) { return (std::size_t{0} + ... + (arrays.capacity() * sizeof(arrays[0]))); };
+  return bytes(asset.first_section, asset.sections, asset.first_row, asset.rows, asset.rest_line, asset.rest_belly,
+               asset.bones, asset.fields, asset.row_touches_bone, asset.row_bone_depths, asset.muscles_touch,
+               asset.first_overlap, asset.overlaps, asset.rest_depths, asset.transversals);
+}
+
+}  // namespace fascicle::muscle

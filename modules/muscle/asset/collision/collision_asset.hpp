@@ -1,0 +1,98 @@
+// What the collision of one character's muscles needs to know and never changes while they move: where surfaces are
+// sampled, which pairs may touch, how deep they are in each other at rest, where the tags are. One per level of detail,
+// shared by all characters of an asset; `build_collision_asset` makes it.
+//
+// Sections are numbered muscle after muscle (`first_section`), rows of samples likewise (`first_row`). A row lies on a
+// section (weight 0) or between two, and has a sample on each of its |C| meridians: on the drawn surface's edges.
+// Rows nearer to a muscle's end than to the section beside it have no samples: muscles grow out of bones there.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "modules/muscle/asset/collision/bone_field.hpp"
+#include "modules/muscle/asset/collision/collision_description.hpp"
+
+namespace fascicle::muscle {
+
+struct MuscleAsset;
+
+struct CollisionSection {
+  std::uint32_t muscle = 0, section = 0;  // of the asset
+  std::uint32_t slot = 0, first_radius = 0, count = 0;  // of its centre, of its radii, |C|
+  std::uint32_t bone = 0;    // carries most of a_k: its displacement is kept in this bone's frame
+  bool end = false;          // the muscle's first or last: attached, never moves
+  bool via = false;          // at a via point
+  float rest_area = 0.0f;    // m^2
+  float belly = 1.0f;        // 0: tendon, of constant area; 1: belly, of constant volume
+};
+
+struct SampleRow {
+  std::uint32_t section = 0;       // number of the section at or before it
+  float weight = 0.0f;             // 0 at that section, towards 1 at the next
+  std::uint32_t first_sample = 0;  // |C| samples
+};
+
+// Overlaps at rest of a row's samples with another muscle: these depths are allowed.
+struct RestOverlap {
+  std::uint32_t other = 0;         // muscle
+  std::uint32_t first_depth = 0;   // |C| depths, m, in CollisionAsset::rest_depths
+};
+
+// A tag at this level of detail.
+struct Transversal {
+  std::uint32_t section = 0, vertex = 0;
+  std::int32_t bone = -1;                 // >= 0: then `point` in its frame is the other end
+  std::uint32_t other_section = 0, other_vertex = 0;
+  glm::vec3 point{0.0f};                  // m
+  glm::vec3 normal{0.0f};                 // unit: out of the bone there, in its frame
+  float rest_depth = 0.0f;                // m: measured at rest, allowed for
+  bool first_yields = true, second_yields = true;
+  bool sweeps = false;
+  std::uint32_t tag = 0;                  // index in CollisionDescription::transversals
+};
+
+inline constexpr std::uint32_t kNoDepths = 0xffffffffu;
+
+struct CollisionAsset {
+  std::shared_ptr<const MuscleAsset> muscles;
+  std::vector<std::uint32_t> first_section;        // by muscle, and one more: their number
+  std::vector<CollisionSection> sections;
+  std::vector<std::uint32_t> first_row;            // by muscle, and one more
+  std::vector<SampleRow> rows;
+  std::uint32_t sample_count = 0;
+  std::vector<float> rest_line;                    // m, by muscle: length of the drawn line at rest
+  std::vector<float> rest_belly;                   // m, by muscle: of its part that is no tendon
+
+  std::vector<std::int32_t> bones;                 // those that have a field
+  std::vector<std::shared_ptr<const BoneField>> fields;  // of `bones`
+  std::vector<std::uint8_t> row_touches_bone;      // row * bones + place in `bones`: 1
+  std::vector<std::uint32_t> row_bone_depths;      // likewise: first of |C| depths in rest_depths, or kNoDepths
+  std::vector<std::uint8_t> muscles_touch;         // muscle * muscles + other: 1
+  std::vector<std::uint32_t> first_overlap;        // by row, and one more
+  std::vector<RestOverlap> overlaps;               // by row, others in order
+  std::vector<float> rest_depths;                  // m, >= 0
+
+  std::vector<Transversal> transversals;
+};
+
+// The asset's rest pose is where `rest_bones` (by bone) put it. `fields` by bone, null where a bone has none. Tags on
+// end sections move to the section beside. None of the inputs can be wrong where the content's reader took them.
+std::shared_ptr<const CollisionAsset> build_collision_asset(std::shared_ptr<const MuscleAsset> muscles,
+                                                            const CollisionDescription& description,
+                                                            std::span<const std::shared_ptr<const BoneField>> fields,
+                                                            std::span<const glm::mat4> rest_bones);
+
+// The section and vertex at a tag's place.
+struct TaggedVertex {
+  std::uint32_t section = 0, vertex = 0;  // section by its number in its muscle
+};
+TaggedVertex find_tagged_vertex(const MuscleAsset& muscles, const SectionTag& tag);
+
+std::size_t heap_bytes(const CollisionAsset& asset);
+
+}  // namespace fascicle::muscle

@@ -1,0 +1,101 @@
+#include "modules/muscle/kernels/collision/bone_contacts.hpp"
+
+#include <array>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "modules/muscle/kernels/collision/contact_rows.hpp"
+#include "modules/muscle/kernels/kernel_data.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+bool overlap(const Box& a, const Box& b) {
+  return glm::all(glm::lessThanEqual(a.lower, b.upper)) && glm::all(glm::lessThanEqual(b.lower, a.upper));
+}
+
+// The world's box of a bone's own.
+Box bone_box(const BoneField& field, const glm::mat4& bone, float reach) {
+  const glm::vec3 centre = glm::vec3(bone * glm::vec4(0.5f * (field.lower() + field.upper()), 1.0f));
+  const glm::vec3 half = 0.5f * (field.upper() - field.lower());
+  const glm::vec3 extent = glm::abs(glm::vec3(bone[0])) * half.x + glm::abs(glm::vec3(bone[1])) * half.y +
+                           glm::abs(glm::vec3(bone[2])) * half.z + reach;
+  return {centre - extent, centre + extent};
+}
+
+class BoneTest {
+ public:
+  BoneTest(const CollisionAsset& asset, std::size_t place, const glm::mat4& bone, float margin, float reach,
+           CollisionWork& work)
+      : asset_(asset), field_(*asset.fields[place]), place_(place), turn_(bone), origin_(bone[3]), margin_(margin),
+        reach_(reach), work_(work) {}
+
+  void test(std::uint32_t r) {
+    const Box& box = work_.row_boxes[r];
+    const float radius = 0.5f * glm::distance(box.lower, box.upper);
+    const std::uint32_t depths = asset_.row_bone_depths[r * asset_.bones.size() + place_];
+    if (field_.distance(to_bone(0.5f * (box.lower + box.upper))) > radius + margin_ + reach_) return;
+    const SampleRow& row = asset_.rows[r];
+    const std::uint32_t count = asset_.sections[row.section].count;
+    std::array<float, kMaxSectionVertices> x, y, z, distance;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t s = row.first_sample + i;
+      const glm::vec3 p = to_bone(glm::vec3(work_.sample_x[s], work_.sample_y[s], work_.sample_z[s]));
+      x[i] = p.x;
+      y[i] = p.y;
+      z[i] = p.z;
+    }
+    const auto part = [&](std::array<float, kMaxSectionVertices>& all) { return std::span(all).first(count); };
+    field_.distances(part(x), part(y), part(z), part(distance));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float allowed = depths == kNoDepths ? 0.0f : asset_.rest_depths[depths + i];
+      if (distance[i] + allowed - margin_ > reach_) continue;
+      add(r, i, glm::vec3(x[i], y[i], z[i]), allowed);
+    }
+  }
+
+ private:
+  glm::vec3 to_bone(const glm::vec3& p) const { return (p - origin_) * turn_; }
+
+  void add(std::uint32_t r, std::uint32_t i, const glm::vec3& place, float allowed) {
+    const FieldValue value = field_.at(place);
+    if (value.gradient == glm::vec3(0.0f)) return;
+    Contact contact;
+    contact.bone = static_cast<std::int32_t>(place_);
+    contact.normal = turn_ * value.gradient;
+    if (!carry_sample(asset_, work_, r, i, contact)) return;
+    contact.found = value.distance + allowed - margin_;
+    contact.base = glm::dot(contact.normal, contact.place) - contact.found;
+    add_contact(contact, work_);
+  }
+
+  const CollisionAsset& asset_;
+  const BoneField& field_;
+  std::size_t place_;
+  glm::mat3 turn_;
+  glm::vec3 origin_;
+  float margin_, reach_;
+  CollisionWork& work_;
+};
+
+}  // namespace
+
+void find_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> bones, float margin, float reach,
+                        CollisionWork& work) {
+  for (std::size_t place = 0; place < asset.bones.size(); ++place) {
+    const glm::mat4& bone = bones[static_cast<std::size_t>(asset.bones[place])];
+    const Box box = bone_box(*asset.fields[place], bone, margin + reach);
+    BoneTest bone_test(asset, place, bone, margin, reach, work);
+    for (std::size_t m = 0; m + 1 < asset.first_row.size(); ++m) {
+      if (!overlap(work.muscle_boxes[m], box)) continue;
+      for (std::uint32_t r = asset.first_row[m]; r < asset.first_row[m + 1]; ++r) {
+        if (asset.row_touches_bone[r * asset.bones.size() + place] == 0 || !overlap(work.row_boxes[r], box)) continue;
+        bone_test.test(r);
+      }
+    }
+  }
+}
+
+}  // namespace fascicle::muscle

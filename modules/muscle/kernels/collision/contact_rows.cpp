@@ -1,0 +1,85 @@
+#include "modules/muscle/kernels/collision/contact_rows.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace fascicle::muscle {
+namespace {
+
+glm::vec3 direction(const CollisionWork& work, std::uint32_t radius) {
+  return glm::vec3(work.dir_x[radius], work.dir_y[radius], work.dir_z[radius]);
+}
+
+// A radius may move where its centre may.
+float radius_mobility(const CollisionWork& work, std::uint32_t section) {
+  return work.mobility[section] > 0.0f ? 1.0f : 0.0f;
+}
+
+}  // namespace
+
+bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row, std::uint32_t vertex,
+                  Contact& contact) {
+  const SampleRow& sample = asset.rows[row];
+  const std::uint32_t s = sample.first_sample + vertex;
+  contact.row = row;
+  contact.vertex = vertex;
+  contact.place = glm::vec3(work.sample_x[s], work.sample_y[s], work.sample_z[s]);
+  contact.section = sample.section;
+  contact.weight[0] = 1.0f - sample.weight;
+  contact.weight[1] = sample.weight;
+  const std::uint32_t ends = sample.weight > 0.0f ? 2 : 1;
+  bool moves = false;
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    // A sample on a section names that section twice, the second time with no weight.
+    const std::uint32_t section = sample.section + (k < ends ? k : 0);
+    contact.radius[k] = asset.sections[section].first_radius + vertex;
+    contact.lever[k] = contact.weight[k] * glm::dot(contact.normal, direction(work, contact.radius[k]));
+    moves = moves || (contact.weight[k] > 0.0f && work.mobility[section] > 0.0f);
+  }
+  return moves || contact.bone < 0;
+}
+
+void carry_outline(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t section, float along,
+                   std::uint32_t edge, float fraction, Contact& contact) {
+  contact.other_section = section;
+  contact.other_weight[0] = 1.0f - along;
+  contact.other_weight[1] = along;
+  const std::uint32_t count = asset.sections[section].count;
+  const std::uint32_t next = edge + 1 == count ? 0 : edge + 1;
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    const std::uint32_t first = asset.sections[section + k].first_radius;
+    for (std::uint32_t j = 0; j < 2; ++j) {
+      const float weight = contact.other_weight[k] * (j == 0 ? 1.0f - fraction : fraction);
+      const std::uint32_t radius = first + (j == 0 ? edge : next);
+      contact.other_radius[2 * k + j] = radius;
+      contact.other_lever[2 * k + j] = -weight * glm::dot(contact.normal, direction(work, radius));
+    }
+  }
+}
+
+void add_contact(Contact& contact, CollisionWork& work) {
+  float sum = 0.0f;
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    if (contact.weight[k] == 0.0f) continue;
+    const std::uint32_t section = contact.section + k;
+    sum += work.mobility[section] * contact.weight[k] * contact.weight[k] +
+           radius_mobility(work, section) * contact.lever[k] * contact.lever[k];
+  }
+  if (contact.bone < 0) {
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const std::uint32_t section = contact.other_section + k;
+      sum += work.mobility[section] * contact.other_weight[k] * contact.other_weight[k];
+      for (std::uint32_t j = 2 * k; j < 2 * k + 2; ++j) {
+        sum += radius_mobility(work, section) * contact.other_lever[j] * contact.other_lever[j];
+      }
+    }
+  }
+  if (!(sum > 1.0e-6f)) return;
+  contact.inverse_mass = 1.0f / sum;
+  if (work.contacts.size() == work.contacts.capacity()) {
+    work.overflow = true;
+    return;
+  }
+  work.contacts.push_back(contact);
+}
+
+}  // namespace fascicle::muscle

@@ -1,0 +1,175 @@
+#include "modules/muscle/kernels/collision/muscle_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/kernels/collision/contact_rows.hpp"
+#include "modules/muscle/kernels/collision/section_outline.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr float kMostCellsAlong = 8.0f;  // cells are so wide that no segment lies in more along an axis
+constexpr float kSmallestCell = 1.0e-4f;  // m
+
+std::uint32_t hash_cell(int x, int y, int z, std::uint32_t mask) {
+  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
+                    static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
+  h ^= h >> 15;
+  return h & mask;
+}
+
+template <class F>
+void for_each_cell(const Box& box, float cell, std::uint32_t mask, F&& f) {
+  const glm::ivec3 lower(glm::floor(box.lower / cell)), upper(glm::floor(box.upper / cell));
+  for (int z = lower.z; z <= upper.z; ++z) {
+    for (int y = lower.y; y <= upper.y; ++y) {
+      for (int x = lower.x; x <= upper.x; ++x) f(hash_cell(x, y, z, mask));
+    }
+  }
+}
+
+bool overlap(const Box& a, const Box& b, float reach) {
+  return a.lower.x <= b.upper.x + reach && b.lower.x <= a.upper.x + reach && a.lower.y <= b.upper.y + reach &&
+         b.lower.y <= a.upper.y + reach && a.lower.z <= b.upper.z + reach && b.lower.z <= a.upper.z + reach;
+}
+
+std::uint32_t cell_mask(const CollisionAsset& asset) {
+  std::uint32_t cells = 256;
+  while (cells < 4 * asset.sections.size()) cells *= 2;
+  return cells - 1;
+}
+
+// Calls f(segment) for the segments there are: all sections but their muscles' last.
+template <class F>
+void for_each_segment(const CollisionAsset& asset, F&& f) {
+  for (std::size_t m = 0; m + 1 < asset.first_section.size(); ++m) {
+    for (std::uint32_t s = asset.first_section[m]; s + 1 < asset.first_section[m + 1]; ++s) f(s);
+  }
+}
+
+class MuscleTest {
+ public:
+  MuscleTest(const CollisionAsset& asset, float margin, float reach, CollisionWork& work)
+      : asset_(asset), margin_(margin), reach_(reach), work_(work) {}
+
+  void test(std::uint32_t r, std::uint32_t muscle, std::uint32_t segment) {
+    const std::uint32_t other = asset_.sections[segment].muscle;
+    if (asset_.muscles_touch[muscle * asset_.muscles->size() + other] == 0) return;
+    if (!overlap(work_.row_boxes[r], work_.segment_boxes[segment], margin_ + reach_)) return;
+    const SampleRow& row = asset_.rows[r];
+    const std::uint32_t count = asset_.sections[row.section].count;
+    const glm::vec3 a0 = work_.a[segment], a1 = work_.a[segment + 1];
+    const glm::vec3 t0 = work_.t[segment], t1 = work_.t[segment + 1];
+    const float widest = std::max(work_.widest[segment], work_.widest[segment + 1]) + margin_ + reach_;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t s = row.first_sample + i;
+      const glm::vec3 p(work_.sample_x[s], work_.sample_y[s], work_.sample_z[s]);
+      const float before = glm::dot(p - a0, t0), behind = glm::dot(p - a1, t1);
+      if (before < 0.0f || behind >= 0.0f) continue;
+      const float along = before / (before - behind);
+      const glm::vec3 from_centre = p - glm::mix(a0, a1, along);
+      if (glm::dot(from_centre, from_centre) > widest * widest) continue;
+      touch(r, i, segment, other, along, p);
+    }
+  }
+
+ private:
+  void touch(std::uint32_t r, std::uint32_t i, std::uint32_t segment, std::uint32_t other, float along,
+             const glm::vec3& p) {
+    OutlineSegment outline;
+    outline.count = asset_.sections[segment].count;
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const std::uint32_t first = asset_.sections[segment + k].first_radius;
+      outline.x[k] = &work_.vertex_x[first];
+      outline.y[k] = &work_.vertex_y[first];
+      outline.z[k] = &work_.vertex_z[first];
+      outline.u[k] = work_.u[segment + k];
+      outline.v[k] = work_.v[segment + k];
+    }
+    const std::uint32_t radius = asset_.sections[asset_.rows[r].section].first_radius + i;
+    const glm::vec3 outward(work_.dir_x[radius], work_.dir_y[radius], work_.dir_z[radius]);
+    OutlinePoint point;
+    if (!find_outline_point(outline, along, p, outward, margin_ + reach_, point)) return;
+    const float allowed = allowed_depth(r, i, other);
+    const float value = point.distance + allowed - margin_;
+    if (value > reach_) return;
+    Contact contact;
+    contact.normal = point.normal;
+    carry_sample(asset_, work_, r, i, contact);
+    carry_outline(asset_, work_, segment, along, point.edge, point.fraction, contact);
+    contact.found = value;
+    // n . (c - q) is the distance now.
+    contact.base = margin_ - allowed;
+    add_contact(contact, work_);
+  }
+
+  float allowed_depth(std::uint32_t r, std::uint32_t i, std::uint32_t other) const {
+    for (std::uint32_t o = asset_.first_overlap[r]; o < asset_.first_overlap[r + 1]; ++o) {
+      if (asset_.overlaps[o].other == other) return asset_.rest_depths[asset_.overlaps[o].first_depth + i];
+    }
+    return 0.0f;
+  }
+
+  const CollisionAsset& asset_;
+  float margin_, reach_;
+  CollisionWork& work_;
+};
+
+}  // namespace
+
+void fill_grid(const CollisionAsset& asset, CollisionWork& work) {
+  float sum = 0.0f, largest = 0.0f, segments = 0.0f;
+  for_each_segment(asset, [&](std::uint32_t s) {
+    const glm::vec3 extent = work.segment_boxes[s].upper - work.segment_boxes[s].lower;
+    const float longest = std::max({extent.x, extent.y, extent.z});
+    sum += longest;
+    segments += 1.0f;
+    largest = std::max(largest, longest);
+  });
+  work.cell = std::max({segments > 0.0f ? sum / segments : 0.0f, largest / kMostCellsAlong, kSmallestCell});
+
+  // Counting sort: numbers, then ends, then, filled from behind, starts.
+  const std::uint32_t mask = cell_mask(asset);
+  std::vector<std::uint32_t>& starts = work.cell_starts;
+  std::fill_n(starts.begin(), mask + 2, 0u);
+  for_each_segment(asset, [&](std::uint32_t s) {
+    for_each_cell(work.segment_boxes[s], work.cell, mask, [&](std::uint32_t cell) { ++starts[cell]; });
+  });
+  for (std::uint32_t cell = 1; cell <= mask + 1; ++cell) starts[cell] += starts[cell - 1];
+  if (starts[mask + 1] > work.cell_segments.size()) {
+    work.overflow = true;
+    std::fill_n(starts.begin(), mask + 2, 0u);
+    return;
+  }
+  for_each_segment(asset, [&](std::uint32_t s) {
+    for_each_cell(work.segment_boxes[s], work.cell, mask,
+                  [&](std::uint32_t cell) { work.cell_segments[--starts[cell]] = s; });
+  });
+}
+
+void find_muscle_contacts(const CollisionAsset& asset, float margin, float reach, CollisionWork& work) {
+  const std::uint32_t mask = cell_mask(asset);
+  MuscleTest muscle_test(asset, margin, reach, work);
+  std::fill(work.stamps.begin(), work.stamps.end(), 0xffffffffu);
+  for (std::uint32_t m = 0; m + 1 < asset.first_row.size(); ++m) {
+    for (std::uint32_t r = asset.first_row[m]; r < asset.first_row[m + 1]; ++r) {
+      for_each_cell(work.row_boxes[r], work.cell, mask, [&](std::uint32_t cell) {
+        for (std::uint32_t place = work.cell_starts[cell]; place < work.cell_starts[cell + 1]; ++place) {
+          const std::uint32_t segment = work.cell_segments[place];
+          if (work.stamps[segment] == r) continue;
+          work.stamps[segment] = r;
+          if (asset.sections[segment].muscle != m) muscle_test.test(r, m, segment);
+        }
+      });
+    }
+  }
+}
+
+}  // namespace fascicle::muscle

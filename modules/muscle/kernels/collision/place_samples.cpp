@@ -1,0 +1,94 @@
+#include "modules/muscle/kernels/collision/place_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "modules/muscle/asset/muscle_asset.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+Box bounds_of(const float* x, const float* y, const float* z, std::uint32_t count) {
+  Box box{glm::vec3(x[0], y[0], z[0]), glm::vec3(x[0], y[0], z[0])};
+  for (std::uint32_t i = 1; i < count; ++i) {
+    const glm::vec3 p(x[i], y[i], z[i]);
+    box.lower = glm::min(box.lower, p);
+    box.upper = glm::max(box.upper, p);
+  }
+  return box;
+}
+
+Box join(const Box& a, const Box& b) { return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)}; }
+
+void place_vertices(const CollisionAsset& asset, CollisionWork& work) {
+  for (std::size_t s = 0; s < asset.sections.size(); ++s) {
+    const CollisionSection& section = asset.sections[s];
+    const std::uint32_t first = section.first_radius;
+    const glm::vec3 a = work.a[s];
+    float widest = 0.0f;
+    for (std::uint32_t i = first; i < first + section.count; ++i) {
+      const float r = work.radii[i];
+      work.vertex_x[i] = a.x + r * work.dir_x[i];
+      work.vertex_y[i] = a.y + r * work.dir_y[i];
+      work.vertex_z[i] = a.z + r * work.dir_z[i];
+      widest = std::max(widest, std::abs(r));
+    }
+    work.widest[s] = widest;
+  }
+}
+
+}  // namespace
+
+void place_directions(const CollisionAsset& asset, CollisionWork& work) {
+  for (std::size_t s = 0; s < asset.sections.size(); ++s) {
+    const CollisionSection& section = asset.sections[s];
+    const Circle& circle = asset.muscles->circles[asset.muscles->layouts[section.muscle].circle];
+    const glm::vec3 u = work.u[s], v = work.v[s];
+    for (std::uint32_t i = 0; i < section.count; ++i) {
+      const float c = circle.cosines[i], d = circle.sines[i];
+      work.dir_x[section.first_radius + i] = c * u.x + d * v.x;
+      work.dir_y[section.first_radius + i] = c * u.y + d * v.y;
+      work.dir_z[section.first_radius + i] = c * u.z + d * v.z;
+    }
+  }
+}
+
+void place_samples(const CollisionAsset& asset, CollisionWork& work) {
+  place_vertices(asset, work);
+  for (std::size_t m = 0; m < asset.muscles->size(); ++m) {
+    Box before, all;
+    for (std::uint32_t s = asset.first_section[m]; s < asset.first_section[m + 1]; ++s) {
+      const std::uint32_t i = asset.sections[s].first_radius;
+      const Box here = bounds_of(&work.vertex_x[i], &work.vertex_y[i], &work.vertex_z[i], asset.sections[s].count);
+      if (s > asset.first_section[m]) work.segment_boxes[s - 1] = join(before, here);
+      all = s > asset.first_section[m] ? join(all, here) : here;
+      before = here;
+    }
+    work.muscle_boxes[m] = all;
+  }
+  for (std::size_t r = 0; r < asset.rows.size(); ++r) {
+    const SampleRow& row = asset.rows[r];
+    const CollisionSection& section = asset.sections[row.section];
+    float* x = &work.sample_x[row.first_sample];
+    float* y = &work.sample_y[row.first_sample];
+    float* z = &work.sample_z[row.first_sample];
+    const std::uint32_t from = section.first_radius;
+    if (row.weight == 0.0f) {
+      std::copy_n(&work.vertex_x[from], section.count, x);
+      std::copy_n(&work.vertex_y[from], section.count, y);
+      std::copy_n(&work.vertex_z[from], section.count, z);
+    } else {
+      const std::uint32_t to = asset.sections[row.section + 1].first_radius;
+      for (std::uint32_t i = 0; i < section.count; ++i) {
+        x[i] = work.vertex_x[from + i] + row.weight * (work.vertex_x[to + i] - work.vertex_x[from + i]);
+        y[i] = work.vertex_y[from + i] + row.weight * (work.vertex_y[to + i] - work.vertex_y[from + i]);
+        z[i] = work.vertex_z[from + i] + row.weight * (work.vertex_z[to + i] - work.vertex_z[from + i]);
+      }
+    }
+    work.row_boxes[r] = bounds_of(x, y, z, section.count);
+  }
+}
+
+}  // namespace fascicle::muscle

@@ -1,0 +1,159 @@
+#include "modules/muscle/systems/4_solve/solve_muscles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "engine/ecs/each_in_parallel.hpp"
+#include "modules/muscle/asset/collision/collision_asset.hpp"
+#include "modules/muscle/kernels/collision/solve_collision.hpp"
+#include "modules/muscle/kernels/inflate_section.hpp"
+#include "modules/muscle/systems/4_solve/report_contacts.hpp"
+#include "modules/muscle/systems/kernel_jobs.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr float kLineMass = 1.0f;            // of a_k, in the masses of its radii together
+constexpr float kLeastBelly = 0.4f, kMostBelly = 2.5f;  // of its length at rest, for the volume
+constexpr float kLargestOffset = 0.5f;       // of the muscle's length at rest: beyond, the solve has diverged
+constexpr float kLargestStretch = 8.0f;      // of a radius, by its section's largest at rest
+
+glm::vec3 at(const AlignedVector<float>& x, const AlignedVector<float>& y, const AlignedVector<float>& z,
+             std::uint32_t i) {
+  return glm::vec3(x[i], y[i], z[i]);
+}
+
+// What a section's area is held at: belly keeps its volume as its length changes, tendon its area.
+float area_target(const CollisionAsset& asset, const CollisionSection& section, float belly_ratio, float rest_area) {
+  (void)asset;
+  return rest_area * (1.0f + section.belly * (belly_ratio - 1.0f));
+}
+
+bool is_held(const Musculature& musculature, const ActionLines& lines, std::uint32_t muscle) {
+  return musculature.attached[muscle] == 0 || (lines.any_held && lines.held[muscle] != 0);
+}
+
+void load(const Musculature& musculature, const MuscleCollision& collision, const BoneMatrices& bones,
+          const ActionLines& lines, const CrossSections& sections, CollisionWork& work) {
+  const CollisionAsset& asset = *collision.asset;
+  std::copy(collision.radii.begin(), collision.radii.end(), work.radii.begin());
+  for (std::uint32_t m = 0; m < asset.muscles->size(); ++m) {
+    const std::uint32_t last = asset.first_section[m + 1] - 1;
+    const float length = sections.arc[asset.sections[last].slot];
+    const float belly = length - (asset.rest_line[m] - asset.rest_belly[m]);
+    const float ratio = collision.settings.keep_volume
+                            ? asset.rest_belly[m] / std::clamp(belly, kLeastBelly * asset.rest_belly[m],
+                                                               kMostBelly * asset.rest_belly[m])
+                            : 1.0f;
+    const bool held = is_held(musculature, lines, m);
+    for (std::uint32_t s = asset.first_section[m]; s <= last; ++s) {
+      const CollisionSection& section = asset.sections[s];
+      const std::uint32_t slot = section.slot;
+      work.a[s] = work.driven[s] = at(lines.x, lines.y, lines.z, slot);
+      if (!section.end && !held) {
+        work.driven[s] -= glm::mat3(bones.world[section.bone]) *
+                          at(collision.offset_x, collision.offset_y, collision.offset_z, slot);
+      }
+      work.u[s] = at(sections.ux, sections.uy, sections.uz, slot);
+      work.v[s] = at(sections.vx, sections.vy, sections.vz, slot);
+      work.t[s] = glm::cross(work.u[s], work.v[s]);
+      work.mobility[s] = section.end || held ? 0.0f : 1.0f / (kLineMass * static_cast<float>(section.count));
+      const float* rest = &collision.rest_radii[section.first_radius];
+      const float rest_area = section_area(std::span(rest, section.count));
+      const float target = section.end ? rest_area : area_target(asset, section, ratio, rest_area);
+      work.area_target[s] = target;
+      const float scale = rest_area > 0.0f ? std::sqrt(target / rest_area) : 1.0f;
+      for (std::uint32_t i = 0; i < section.count; ++i) work.wanted[section.first_radius + i] = scale * rest[i];
+    }
+  }
+}
+
+bool is_sound(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t muscle) {
+  const float furthest = kLargestOffset * asset.rest_line[muscle];
+  for (std::uint32_t s = asset.first_section[muscle]; s < asset.first_section[muscle + 1]; ++s) {
+    const CollisionSection& section = asset.sections[s];
+    if (!(glm::distance(work.a[s], work.driven[s]) <= furthest)) return false;
+    float largest = 1.0e-3f;
+    for (std::uint32_t i = 0; i < section.count; ++i) {
+      largest = std::max(largest, std::abs(work.wanted[section.first_radius + i]));
+    }
+    for (std::uint32_t i = 0; i < section.count; ++i) {
+      if (!(std::abs(work.radii[section.first_radius + i]) <= kLargestStretch * largest)) return false;
+    }
+  }
+  return true;
+}
+
+// The skinned rest shape, for this step.
+void fall_back(const CollisionAsset& asset, std::uint32_t muscle, CollisionWork& work) {
+  for (std::uint32_t s = asset.first_section[muscle]; s < asset.first_section[muscle + 1]; ++s) {
+    const CollisionSection& section = asset.sections[s];
+    work.a[s] = work.driven[s];
+    std::copy_n(&work.wanted[section.first_radius], section.count, &work.radii[section.first_radius]);
+  }
+}
+
+void store(const CollisionWork& work, const BoneMatrices& bones, MuscleCollision& collision, ActionLines& lines,
+           CrossSections& sections) {
+  const CollisionAsset& asset = *collision.asset;
+  for (std::size_t s = 0; s < asset.sections.size(); ++s) {
+    const CollisionSection& section = asset.sections[s];
+    const std::uint32_t slot = section.slot;
+    lines.x[slot] = work.a[s].x;
+    lines.y[slot] = work.a[s].y;
+    lines.z[slot] = work.a[s].z;
+    const glm::vec3 offset = (work.a[s] - work.driven[s]) * glm::mat3(bones.world[section.bone]);
+    if (work.mobility[s] > 0.0f) {
+      collision.offset_x[slot] = offset.x;
+      collision.offset_y[slot] = offset.y;
+      collision.offset_z[slot] = offset.z;
+    }
+    const float* radii = &work.radii[section.first_radius];
+    std::copy_n(radii, section.count, &collision.radii[section.first_radius]);
+    std::copy_n(radii, section.count, &sections.radii[section.first_radius]);
+    collision.area[s] = section_area(std::span(radii, section.count));
+    collision.target_area[s] = work.area_target[s];
+  }
+}
+
+// Settings that no longer ask for collision: the shape at rest, once.
+void release(const Musculature& musculature, MuscleCollision& collision, CrossSections& sections) {
+  if (collision.asset == nullptr) return;
+  if (sections.radii.size() == collision.rest_radii.size()) sections.radii = collision.rest_radii;
+  collision.asset = nullptr;
+  (void)musculature;
+}
+
+}  // namespace
+
+void solve_muscles(ecs::View<const Musculature, MuscleCollision, MuscleContacts, ActionLines, CrossSections> musculatures,
+                   ecs::View<const BoneMatrices> characters, ecs::Resource<const FrameTime> time,
+                   ecs::Resource<const CollisionScratch> scratch, ecs::Resource<const CostLedger> ledger) {
+  const SystemCosts costs = ledger->system("solve_muscles");
+  const auto solve = [&](ecs::Entity entity, const Musculature& musculature, MuscleCollision& collision,
+                         MuscleContacts& contacts, ActionLines& lines, CrossSections& sections) {
+    const ScopedCost cost(costs.row(entity), ScopedCost::kWhole);
+    const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
+    if (!collision.settings.enabled) return release(musculature, collision, sections);
+    if (collision.asset == nullptr || !has_bones(*musculature.asset, bones)) return;
+    const CollisionScratch::Loan loan(*scratch);
+    CollisionWork& work = *loan;
+    const CollisionAsset& asset = *collision.asset;
+    work.overflow = false;
+    load(musculature, collision, *bones, lines, sections, work);
+    solve_collision(asset, collision.settings, bones->world, time->step, work);
+    for (std::uint32_t m = 0; m < asset.muscles->size(); ++m) {
+      if (is_sound(asset, work, m)) continue;
+      fall_back(asset, m, work);
+      ++collision.fallbacks;
+    }
+    store(work, *bones, collision, lines, sections);
+    report_contacts(asset, work, collision, contacts);
+  };
+  ecs::each_in_parallel(musculatures, 1, solve);
+}
+
+}  // namespace fascicle::muscle
