@@ -24,5 +24,7 @@ void add_fit(CLI::App& program, Command& chosen);
 void add_counts(CLI::App& program, Command& chosen);
 // slices CHARACTER|MESH...: the shapes of muscle meshes' cross sections.
 void add_slices(CLI::App& program, Command& chosen);
+// collide CHARACTER: a character played and its muscles' penetration measured.
+void add_collide(CLI::App& program, Command& chosen);
 
 }  // namespace fascicle::cook

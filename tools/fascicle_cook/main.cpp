@@ -21,6 +21,9 @@ int run(int argc, char** argv) {
   cook::add_fit(program, chosen);
   cook::add_counts(program, chosen);
   cook::add_slices(program, chosen);
+#ifdef FASCICLE_COOK_PLAYS
+  cook::add_collide(program, chosen);
+#endif
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,167 @@
+#include "tools/fascicle_cook/collide_run.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "engine/animation/motion.hpp"
+#include "engine/animation/pose_systems.hpp"
+#include "engine/animation/joint_systems.hpp"
+#include "engine/ecs/monotonic_clock.hpp"
+#include "game/simulation.hpp"
+#include "modules/muscle/components/muscle_collision.hpp"
+#include "modules/muscle/measure/jitter.hpp"
+#include "modules/muscle/measure/rest_surfaces.hpp"
+#include "modules/muscle/muscle.hpp"
+
+namespace fascicle::cook {
+namespace {
+
+using namespace muscle;
+
+// A first character without its fellows and where it stands: depths do not depend on either.
+std::shared_ptr<const SceneAsset> alone(const SceneAsset& scene) {
+  auto copy = std::make_shared<SceneAsset>(scene);
+  copy->characters.resize(1);
+  return copy;
+}
+
+void set_mode(ecs::World& world, ecs::Entity musculature, CollideMode mode) {
+  MuscleCollision* collision = world.try_get<MuscleCollision>(musculature);
+  if (collision == nullptr) return;
+  collision->settings.enabled = mode != CollideMode::kWithout;
+  collision->settings.mode = mode == CollideMode::kLegacy ? CollisionMode::kLegacy : CollisionMode::kReduced;
+}
+
+void stand_still(ecs::World& world, ecs::Entity character) {
+  if (ClipPlayer* clip = world.try_get<ClipPlayer>(character)) clip->speed = 0.0f;
+  if (MotionPlayer* motion = world.try_get<MotionPlayer>(character)) motion->speed = 0.0;
+}
+
+// The deepest of every pair.
+class Pairs {
+ public:
+  void add(const std::vector<PairDepth>& pairs, std::uint64_t frame) {
+    for (const PairDepth& pair : pairs) {
+      CollidePair& kept = pairs_[{pair.bone, std::min(pair.muscle, pair.bone >= 0 ? pair.muscle : pair.other),
+                                  std::max(pair.muscle, pair.bone >= 0 ? pair.muscle : pair.other)}];
+      if (pair.depth > kept.deepest.depth) {
+        kept.deepest = pair;
+        kept.frame = frame;
+      }
+    }
+  }
+  std::vector<CollidePair> worst_first(const Penetration& rest) const {
+    std::vector<CollidePair> list;
+    for (const auto& [key, pair] : pairs_) {
+      list.push_back(pair);
+      list.back().rest = depth_of(pair.deepest, rest);
+    }
+    std::stable_sort(list.begin(), list.end(), [](const CollidePair& a, const CollidePair& b) {
+      return a.deepest.depth - a.rest > b.deepest.depth - b.rest;
+    });
+    return list;
+  }
+
+ private:
+  std::map<std::tuple<std::int32_t, std::uint32_t, std::uint32_t>, CollidePair> pairs_;
+};
+
+CollideRun run_mode(const std::shared_ptr<const SceneAsset>& scene, CollideMode mode, PenetrationMeter& meter,
+                    const Penetration& rest, const CollideOptions& options) {
+  game::Simulation simulation(scene, {.workers = options.workers, .skin_meshes = false});
+  if (options.level) simulation.set_viewer({.enabled = true, .level = options.level});
+  const game::SpawnedCharacter character = simulation.characters().front();
+  ecs::World& world = simulation.world();
+  set_mode(world, character.musculature, mode);
+
+  CollideRun run;
+  run.mode = mode;
+  Pairs pairs;
+  std::vector<float> areas;
+  std::int64_t stepping = 0, measuring = 0;
+  for (std::uint64_t frame = 1; frame <= options.frames; ++frame) {
+    const std::int64_t start = monotonic_ns();
+    simulation.step();
+    stepping += monotonic_ns() - start;
+    if (frame % options.every != 0) continue;
+    const MuscleAsset& asset = *world.get<Musculature>(character.musculature).asset;
+    const MuscleSurfaces& surfaces = world.get<MuscleSurfaces>(character.musculature);
+    const Tendons& tendons = world.get<Tendons>(character.musculature);
+    const std::int64_t measure_start = monotonic_ns();
+    Penetration now;
+    simulation.workers().execute(
+        [&] { now = meter.measure(surfaces, tendons, world.get<BoneMatrices>(character.entity).world); });
+    measuring += monotonic_ns() - measure_start;
+
+    CollideFrame measured{.frame = frame, .bone = deepest(now.bones), .muscle = deepest(now.muscles),
+                          .beyond = beyond(now, rest), .area = {}, .fallbacks = 0,
+                          .held = simulation.held_steps()};
+    if (const MuscleCollision* collision = world.try_get<MuscleCollision>(character.musculature)) {
+      measure_section_areas(asset, surfaces, tendons, areas);
+      measured.area = worst_area_error(asset, areas, collision->target_area);
+      measured.fallbacks = collision->fallbacks;
+    }
+    run.frames.push_back(measured);
+    if (now.left_out > 0) ++run.unstable;
+    if (frame < options.first) continue;
+    pairs.add(now.bones, frame);
+    pairs.add(now.muscles, frame);
+  }
+  run.pairs = pairs.worst_first(rest);
+  run.step_ms = 1e-6 * static_cast<double>(stepping) / static_cast<double>(std::max<std::uint64_t>(options.frames, 1));
+  run.measure_ms =
+      1e-6 * static_cast<double>(measuring) / static_cast<double>(std::max<std::size_t>(run.frames.size(), 1));
+
+  stand_still(world, character.entity);
+  const int second = static_cast<int>(scene->step_hz);
+  Jitter jitter;
+  for (int i = 0; i < 2 * second; ++i) {
+    simulation.step();
+    if (i < second) continue;
+    jitter.add(*world.get<Musculature>(character.musculature).asset, world.get<ActionLines>(character.musculature));
+  }
+  run.jitter_rms = jitter.rms();
+  run.jitter_largest = jitter.largest();
+  return run;
+}
+
+}  // namespace
+
+const char* to_string(CollideMode mode) {
+  switch (mode) {
+    case CollideMode::kWithout: return "without";
+    case CollideMode::kWith: return "with";
+    case CollideMode::kLegacy: return "legacy";
+  }
+  return "";
+}
+
+CollideReport run_collide(const std::shared_ptr<const SceneAsset>& scene, const std::vector<CollideMode>& modes,
+                          const CollideOptions& options) {
+  const std::shared_ptr<const SceneAsset> played = alone(*scene);
+  CollideReport report;
+  report.character = played->characters.front().character;
+  bool collides = false;
+  {
+    game::Simulation probe(played, {.workers = options.workers, .skin_meshes = false});
+    if (options.level) probe.set_viewer({.enabled = true, .level = options.level});
+    for (int i = 0; i < 2; ++i) probe.step();
+    const ecs::Entity musculature = probe.characters().front().musculature;
+    report.asset = probe.world().get<Musculature>(musculature).asset;
+    collides = probe.world().try_get<MuscleCollision>(musculature) != nullptr;
+  }
+  parallel::WorkerArena workers(options.workers);
+  workers.execute([&] {
+    PenetrationMeter meter(report.asset, make_bone_solids(report.character->bone_meshes));
+    const RestSurfaces rest = make_rest_surfaces(report.asset, report.character->skeleton->rest_world);
+    report.rest = meter.measure(rest.surfaces, rest.tendons, report.character->skeleton->rest_world);
+    for (const CollideMode mode : modes) {
+      if (mode != CollideMode::kWithout && !collides) continue;
+      report.runs.push_back(run_mode(played, mode, meter, report.rest, options));
+    }
+  });
+  return report;
+}
+
+}  // namespace fascicle::cook
