@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/kernels/collision/keep_sides.hpp"
 #include "modules/muscle/kernels/collision/place_samples.hpp"
 #include "modules/muscle/kernels/collision/solve_collision.hpp"
 #include "modules/muscle/kernels/inflate_section.hpp"
@@ -189,6 +190,50 @@ void allow_rest_overlaps(const CollisionDescription& description, std::span<cons
   for (std::size_t r = 0; r < asset.rows.size(); ++r) asset.first_overlap[r + 1] += asset.first_overlap[r];
 }
 
+// The nearest point of a bone's surface, by walking down its field.
+glm::vec3 nearest_on_bone(const BoneField& field, glm::vec3 p) {
+  for (int i = 0; i < 8; ++i) {
+    const FieldValue value = field.at(p);
+    p -= value.distance * value.gradient;
+  }
+  return p;
+}
+
+// The tags at this level, and their depths at rest. Those of bones without a field are left out.
+void list_transversals(const CollisionDescription& description, std::span<const std::shared_ptr<const BoneField>> fields,
+                       std::span<const glm::mat4> rest_bones, CollisionAsset& asset) {
+  CollisionWork work;
+  load_rest(asset, work);
+  for (std::uint32_t i = 0; i < description.transversals.size(); ++i) {
+    const TransversalTag& tag = description.transversals[i];
+    const TaggedVertex first = find_tagged_vertex(*asset.muscles, tag.first);
+    Transversal transversal;
+    transversal.tag = i;
+    transversal.sweeps = tag.sweeps;
+    transversal.section = asset.first_section[tag.first.muscle] + first.section;
+    transversal.vertex = first.vertex;
+    transversal.first_yields = tag.yields != Yields::kSecond || tag.bone >= 0;
+    transversal.second_yields = tag.yields != Yields::kFirst;
+    if (tag.bone >= 0) {
+      const std::size_t bone = static_cast<std::size_t>(tag.bone);
+      if (bone >= fields.size() || !fields[bone]) continue;
+      transversal.bone = tag.bone;
+      const std::uint32_t radius = asset.sections[transversal.section].first_radius + first.vertex;
+      const glm::vec3 vertex = work.a[transversal.section] +
+                               work.radii[radius] * glm::vec3(work.dir_x[radius], work.dir_y[radius], work.dir_z[radius]);
+      const glm::mat4& rest = rest_bones[bone];
+      transversal.point = nearest_on_bone(*fields[bone], (vertex - glm::vec3(rest[3])) * glm::mat3(rest));
+      transversal.normal = fields[bone]->at(transversal.point).gradient;
+    } else {
+      const TaggedVertex second = find_tagged_vertex(*asset.muscles, tag.second);
+      transversal.other_section = asset.first_section[tag.second.muscle] + second.section;
+      transversal.other_vertex = second.vertex;
+    }
+    transversal.rest_depth = transversal_depth(asset, transversal, rest_bones, work);
+    asset.transversals.push_back(transversal);
+  }
+}
+
 }  // namespace
 
 TaggedVertex find_tagged_vertex(const MuscleAsset& muscles, const SectionTag& tag) {
@@ -223,6 +268,7 @@ std::shared_ptr<const CollisionAsset> build_collision_asset(std::shared_ptr<cons
   list_rows(description.settings.sample_spacing, *asset);
   list_pairs(description, *asset);
   allow_rest_overlaps(description, rest_bones, *asset);
+  list_transversals(description, fields, rest_bones, *asset);
   return asset;
 }
 

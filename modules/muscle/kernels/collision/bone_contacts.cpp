@@ -12,12 +12,12 @@
 namespace fascicle::muscle {
 namespace {
 
-bool overlap(const Box& a, const Box& b) {
+bool overlap(const Bounds& a, const Bounds& b) {
   return glm::all(glm::lessThanEqual(a.lower, b.upper)) && glm::all(glm::lessThanEqual(b.lower, a.upper));
 }
 
 // The world's box of a bone's own.
-Box bone_box(const BoneField& field, const glm::mat4& bone, float reach) {
+Bounds bone_box(const BoneField& field, const glm::mat4& bone, float reach) {
   const glm::vec3 centre = glm::vec3(bone * glm::vec4(0.5f * (field.lower() + field.upper()), 1.0f));
   const glm::vec3 half = 0.5f * (field.upper() - field.lower());
   const glm::vec3 extent = glm::abs(glm::vec3(bone[0])) * half.x + glm::abs(glm::vec3(bone[1])) * half.y +
@@ -33,7 +33,7 @@ class BoneTest {
         reach_(reach), work_(work) {}
 
   void test(std::uint32_t r) {
-    const Box& box = work_.row_boxes[r];
+    const Bounds& box = work_.row_boxes[r];
     const float radius = 0.5f * glm::distance(box.lower, box.upper);
     const std::uint32_t depths = asset_.row_bone_depths[r * asset_.bones.size() + place_];
     if (field_.distance(to_bone(0.5f * (box.lower + box.upper))) > radius + margin_ + reach_) return;
@@ -86,7 +86,7 @@ void find_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> 
                         CollisionWork& work) {
   for (std::size_t place = 0; place < asset.bones.size(); ++place) {
     const glm::mat4& bone = bones[static_cast<std::size_t>(asset.bones[place])];
-    const Box box = bone_box(*asset.fields[place], bone, margin + reach);
+    const Bounds box = bone_box(*asset.fields[place], bone, margin + reach);
     BoneTest bone_test(asset, place, bone, margin, reach, work);
     for (std::size_t m = 0; m + 1 < asset.first_row.size(); ++m) {
       if (!overlap(work.muscle_boxes[m], box)) continue;

@@ -35,7 +35,7 @@ struct Contact {
   glm::vec3 place{0.0f};               // m, world: of the sample where it was found
 };
 
-struct Box {
+struct Bounds {
   glm::vec3 lower{0.0f}, upper{0.0f};  // m, world
 };
 
@@ -57,7 +57,7 @@ struct CollisionWork {
   AlignedVector<float> sample_x, sample_y, sample_z;     // m, world
 
   // Boxes of the segments (by the section before), rows and muscles.
-  std::vector<Box> segment_boxes, row_boxes, muscle_boxes;
+  std::vector<Bounds> segment_boxes, row_boxes, muscle_boxes;
 
   // The broad phase's grid: hashed cells, each a run of segments.
   float cell = 0.0f;                   // m

@@ -26,7 +26,7 @@ std::uint32_t hash_cell(int x, int y, int z, std::uint32_t mask) {
 }
 
 template <class F>
-void for_each_cell(const Box& box, float cell, std::uint32_t mask, F&& f) {
+void for_each_cell(const Bounds& box, float cell, std::uint32_t mask, F&& f) {
   const glm::ivec3 lower(glm::floor(box.lower / cell)), upper(glm::floor(box.upper / cell));
   for (int z = lower.z; z <= upper.z; ++z) {
     for (int y = lower.y; y <= upper.y; ++y) {
@@ -35,7 +35,7 @@ void for_each_cell(const Box& box, float cell, std::uint32_t mask, F&& f) {
   }
 }
 
-bool overlap(const Box& a, const Box& b, float reach) {
+bool overlap(const Bounds& a, const Bounds& b, float reach) {
   return a.lower.x <= b.upper.x + reach && b.lower.x <= a.upper.x + reach && a.lower.y <= b.upper.y + reach &&
          b.lower.y <= a.upper.y + reach && a.lower.z <= b.upper.z + reach && b.lower.z <= a.upper.z + reach;
 }

@@ -10,8 +10,8 @@
 namespace fascicle::muscle {
 namespace {
 
-Box bounds_of(const float* x, const float* y, const float* z, std::uint32_t count) {
-  Box box{glm::vec3(x[0], y[0], z[0]), glm::vec3(x[0], y[0], z[0])};
+Bounds bounds_of(const float* x, const float* y, const float* z, std::uint32_t count) {
+  Bounds box{glm::vec3(x[0], y[0], z[0]), glm::vec3(x[0], y[0], z[0])};
   for (std::uint32_t i = 1; i < count; ++i) {
     const glm::vec3 p(x[i], y[i], z[i]);
     box.lower = glm::min(box.lower, p);
@@ -20,7 +20,7 @@ Box bounds_of(const float* x, const float* y, const float* z, std::uint32_t coun
   return box;
 }
 
-Box join(const Box& a, const Box& b) { return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)}; }
+Bounds join(const Bounds& a, const Bounds& b) { return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)}; }
 
 void place_vertices(const CollisionAsset& asset, CollisionWork& work) {
   for (std::size_t s = 0; s < asset.sections.size(); ++s) {
@@ -58,10 +58,10 @@ void place_directions(const CollisionAsset& asset, CollisionWork& work) {
 void place_samples(const CollisionAsset& asset, CollisionWork& work) {
   place_vertices(asset, work);
   for (std::size_t m = 0; m < asset.muscles->size(); ++m) {
-    Box before, all;
+    Bounds before, all;
     for (std::uint32_t s = asset.first_section[m]; s < asset.first_section[m + 1]; ++s) {
       const std::uint32_t i = asset.sections[s].first_radius;
-      const Box here = bounds_of(&work.vertex_x[i], &work.vertex_y[i], &work.vertex_z[i], asset.sections[s].count);
+      const Bounds here = bounds_of(&work.vertex_x[i], &work.vertex_y[i], &work.vertex_z[i], asset.sections[s].count);
       if (s > asset.first_section[m]) work.segment_boxes[s - 1] = join(before, here);
       all = s > asset.first_section[m] ? join(all, here) : here;
       before = here;

@@ -8,6 +8,7 @@
 
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/kernels/collision/bone_contacts.hpp"
+#include "modules/muscle/kernels/collision/keep_sides.hpp"
 #include "modules/muscle/kernels/collision/muscle_contacts.hpp"
 #include "modules/muscle/kernels/collision/place_samples.hpp"
 #include "modules/muscle/kernels/inflate_section.hpp"
@@ -145,8 +146,10 @@ void solve_collision(const CollisionAsset& asset, const CollisionSettings& setti
                      float step, CollisionWork& work) {
   place_directions(asset, work);
   const float substep = step / static_cast<float>(settings.substeps);
+  recall_strayed(asset, bones, work);
   for (std::uint32_t i = 0; i < settings.substeps; ++i) {
     relax_shape(asset, settings, substep, work);
+    hold_transversals(asset, bones, work);
     find_contacts(asset, settings, bones, work);
     for (std::uint32_t k = 0; k < settings.iterations; ++k) {
       hold_areas(asset, work);
