@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "modules/muscle/kernels/kernel_data.hpp"
 
@@ -20,40 +19,44 @@ std::array<double, kMaxSectionVertices + 1> make_area_factors() {
   return factors;
 }
 
-// The sums of r_i r_{i+1} by how many of the two are free.
-struct AreaSums {
+// Sums of r_i r_{i+1} by how many of the two are free.
+struct ProductSums {
   double free_free = 0.0, mixed = 0.0, fixed_fixed = 0.0;
+  bool any_free = false;
 };
 
-AreaSums sum_products(std::span<const float> radii, std::span<const std::uint8_t> fixed) {
-  AreaSums sums;
-  // A radius counts in one of two rows, with zero in the other, so that the loop has no branches.
+ProductSums sum_products(std::span<const float> radii, std::span<const std::uint8_t> fixed) {
+  ProductSums sums;
+  // A radius counts in one of two rows and is zero in the other: no branches over pairs.
+  std::size_t free_count = 0;
   const double last = radii.back();
-  double last_free = fixed.back() != 0 ? 0.0 : last, last_fixed = fixed.back() != 0 ? last : 0.0;
+  double last_free = fixed.back() != 0 ? 0.0 : last, last_held = fixed.back() != 0 ? last : 0.0;
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const double radius = radii[i];
     const double free = fixed[i] != 0 ? 0.0 : radius, held = fixed[i] != 0 ? radius : 0.0;
     sums.free_free += last_free * free;
-    sums.mixed += last_free * held + last_fixed * free;
-    sums.fixed_fixed += last_fixed * held;
+    sums.mixed += last_free * held + last_held * free;
+    sums.fixed_fixed += last_held * held;
     last_free = free;
-    last_fixed = held;
+    last_held = held;
+    free_count += fixed[i] != 0 ? 0 : 1;
   }
+  sums.any_free = free_count > 0;
   return sums;
 }
 
-// The positive root of a s^2 + b s + c nearest to 1.
-std::optional<double> scale_nearest_one(double a, double b, double c) {
-  if (a == 0.0) {
-    const double root = -c / b;
-    return b != 0.0 && root > 0.0 ? std::optional(root) : std::nullopt;
+// The positive root of a s^2 + b s + c nearest to 1; 0 where there is none.
+double scale_nearest_one(double a, double b, double c) {
+  if (a >= 0.0 && b >= 0.0 && c < 0.0) {  // nearly always: radii are positive, and free ones have area to fill
+    return -2.0 * c / (b + std::sqrt(b * b - 4.0 * a * c));
   }
+  if (a == 0.0) return b != 0.0 ? std::max(0.0, -c / b) : 0.0;
   const double discriminant = b * b - 4.0 * a * c;
-  if (!(discriminant >= 0.0)) return std::nullopt;
+  if (!(discriminant >= 0.0)) return 0.0;
   // The root with the larger magnitude first, the other by their product: no digits cancel.
   const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
   const double first = q / a, second = q != 0.0 ? c / q : 0.0;
-  if (!(first > 0.0)) return second > 0.0 ? std::optional(second) : std::nullopt;
+  if (!(first > 0.0)) return std::max(0.0, second);
   if (!(second > 0.0)) return first;
   return std::abs(first - 1.0) <= std::abs(second - 1.0) ? first : second;
 }
@@ -106,18 +109,17 @@ InflateOutcome inflate_section(std::span<float> radii, std::span<const std::uint
                                float largest_scale) {
   assert(radii.size() == fixed.size() && largest_scale >= 1.0f);
   if (radii.size() < 3) return {};
-  if (std::find(fixed.begin(), fixed.end(), std::uint8_t{0}) == fixed.end()) return {Inflation::kAllFixed};
-  const AreaSums sums = sum_products(radii, fixed);
-  const double missing = sums.fixed_fixed - target_area / section_area_factor(radii.size());
+  const ProductSums sums = sum_products(radii, fixed);
+  if (!sums.any_free) return {.kind = Inflation::kAllFixed};
+  const double factor = section_area_factor(radii.size());
+  const double a = factor * sums.free_free, b = factor * sums.mixed, c = factor * sums.fixed_fixed - target_area;
   // A radius that is not finite spoils at least one of the sums.
-  if (!std::isfinite(sums.free_free) || !std::isfinite(sums.mixed) || !std::isfinite(missing)) return {};
-  if (sums.free_free == 0.0 && sums.mixed == 0.0) return {};
+  if (!std::isfinite(a + b + c) || (a == 0.0 && b == 0.0)) return {};
 
   const double most = largest_scale, least = 1.0 / most;
-  const std::optional<double> root = scale_nearest_one(sums.free_free, sums.mixed, missing);
-  // Without a root, and with all the area there should be in the fixed radii alone, the least of the free radii comes nearest.
-  if (!root && !(missing >= 0.0 && sums.free_free >= 0.0 && sums.mixed >= 0.0)) return {};
-  const double wanted = root.value_or(0.0);
+  const double wanted = scale_nearest_one(a, b, c);
+  // Where the fixed radii alone have all the area there should be, the least of the free ones comes nearest.
+  if (wanted == 0.0 && !(a >= 0.0 && b >= 0.0 && c >= 0.0)) return {};
   const float scale = static_cast<float>(std::clamp(wanted, least, most));
   for (std::size_t i = 0; i < radii.size(); ++i) radii[i] *= fixed[i] != 0 ? 1.0f : scale;
   return {wanted < least || wanted > most ? Inflation::kCapped : Inflation::kReached, scale};

@@ -1,7 +1,7 @@
-// Does anything cross a section's surface? (3.2, thesis 4.1.2) Short rays run along the surface's own edges: latitudinal
-// ones round the section, c_i -> c_{i+1}, and diagonal ones to its neighbour, c_i^k -> c_{i+1}^{k+1} (from the last
-// section back, c_i^k -> c_{i+1}^{k-1}). What one of them hits within its edge's length is in the muscle there. What
-// lies between two edges, or has swallowed the whole section, they do not see.
+// Does anything cross a section's surface? (3.2, thesis 4.1.2) Short rays run along the surface's own edges: round the
+// section, c_i -> c_{i+1} (latitudinal), and to its neighbour, c_i^k -> c_{i+1}^{k+1}, or from the last section back,
+// c_i^k -> c_{i+1}^{k-1} (diagonal). What one of them hits within its edge's length is in the muscle there. What lies
+// between two edges, or has swallowed the whole section, they do not see.
 //
 // Both sides of a triangle count (Moller and Trumbore 1997), and edges that just touch one. A partner is its triangles
 // as they are now; a bone has a tree over its own, built once in its frame, and the edges come to it.

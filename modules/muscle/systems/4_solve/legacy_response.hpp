@@ -1,6 +1,6 @@
 // The thesis's own response to collisions (chapter 4), for comparison with ours: CollisionMode::kLegacy. It looks at
 // tagged sections alone, and what it does stays: nothing comes back once its cause is gone, and one muscle's remedy is
-// the next one's cause. Its authors ran ten muscles with 25 constraints; beyond, they say, it is unstable, and so it is.
+// the next one's cause. The thesis ran ten muscles with 25 constraints and calls it unstable beyond.
 //
 // One run, each part in the tags' or sections' order and each seeing what was done before it:
 //
@@ -9,8 +9,8 @@
 // 2. Ray sweeps (4.1.2) from each tagged section against its partners: the neighbouring segments' triangles of another
 //    muscle, all triangles of a bone.
 // 3. Vertices with a hit on an edge beside them are fixed and lose 10 % of their radius, until a later run finds them
-//    free. Where it would fall below kLegacySmallestRadius, and where a diagonal was hit, the centre moves by a tenth of
-//    the opposite radius instead.
+//    free. Where it would fall below kLegacySmallestRadius the centre moves by a tenth of the opposite radius instead,
+//    and also where a diagonal was hit.
 // 4. The free radii inflate to the section's area at rest, by the thesis's iteration (4.5 to 4.10).
 //
 // The thesis leaves open what bounds all this. Here displacements and radii end at kLegacyReach, so that what is drawn

@@ -238,8 +238,7 @@ TEST(LegacyResponse, WhatItDidStays) {
 }
 
 TEST(LegacyResponse, AtTheSmallestRadiusTheCentreMovesInstead) {
-  // A post beside the centre, inside of the section: the section's edges near it are cut until they are gone, so it is
-  // a wall that radius 0 cannot leave by shrinking.
+  // A thin bar that reaches past the centre: no radius is short enough to be free of it.
   World world({glm::vec3(0.0f)});
   world.tag_bone(kMiddle, 0, 1, {0.5f, 0.0f, 0.2f});
   world.trees[1] = box({-0.0005f, -0.2f, 0.199f}, {0.2f, 0.2f, 0.201f});
