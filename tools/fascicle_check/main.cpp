@@ -123,8 +123,8 @@ int run(int argc, char** argv) {
   app.add_option("FILE", options.files, "NAME.character.json or NAME.scene.json");
   app.add_option("--format", options.format, "How to print what was found, to standard output: text or json")
       ->check(CLI::IsMember({"text", "json"}));
-  app.add_option("--print-schema", options.schema, "Print the JSON schema of: character, scene, joints")
-      ->check(CLI::IsMember({"character", "scene", "joints"}));
+  app.add_option("--print-schema", options.schema, "Print the JSON schema of: character, collision, scene, joints")
+      ->check(CLI::IsMember({"character", "collision", "scene", "joints"}));
   app.add_option("--data", options.data_folder, "The folder that data: stands for (else FASCICLE_DATA)");
   app.add_flag("--migrate", options.migrate,
                "Rewrite files of an older version in the current one, in place, then check them");

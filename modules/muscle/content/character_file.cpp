@@ -144,6 +144,7 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
     finish_object(fit, "fit", context);
   }
   object.optional("specific_tension", file.specific_tension, kSpecificTensionRange);
+  file.collision = read_name(object, "collision", false);
   file.muscles_from = read_name(object, "muscles_from", false);
   for (const JsonNode node : object.optional_array("muscles", 0, 100000)) {
     file.muscles.push_back(read_muscle_entry(node, context));

@@ -110,6 +110,7 @@ struct CharacterFile {
   bool fit = true;
   std::uint32_t fit_supersampling = 3;    // CSS
   float specific_tension = 0.0f;          // N/m^2; 0: the module's default
+  NameEntry collision;                    // the collision file
   NameEntry muscles_from;                 // another character file
   std::vector<MuscleEntry> muscles;
 };

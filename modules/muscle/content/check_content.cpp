@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/content/file_text.hpp"
+#include "modules/muscle/content/collision_file.hpp"
 #include "modules/muscle/content/migrate.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 
@@ -26,14 +27,26 @@ std::optional<ContentKind> find_kind(const std::filesystem::path& file, Diagnost
   return kind;
 }
 
+// A collision file by itself: its fields. What its names mean, only a character tells.
+Diagnostics check_collision_file(const std::filesystem::path& file) {
+  Result<JsonDocument> document = read_content_file(file, ContentKind::kCollision);
+  Diagnostics diagnostics = std::move(document.diagnostics());
+  if (document.ok()) read_collision_file(document->root(), {diagnostics});
+  return diagnostics;
+}
+
 }  // namespace
 
 Diagnostics check_content(const std::filesystem::path& file, const LoadOptions& options) {
   Diagnostics diagnostics;
   const std::optional<ContentKind> kind = find_kind(file, diagnostics);
   if (!kind) return diagnostics;
-  return *kind == ContentKind::kScene ? std::move(load_scene(file, options).diagnostics())
-                                      : std::move(load_character(file, options).diagnostics());
+  switch (*kind) {
+    case ContentKind::kScene: return std::move(load_scene(file, options).diagnostics());
+    case ContentKind::kCollision: return check_collision_file(file);
+    case ContentKind::kCharacter: break;
+  }
+  return std::move(load_character(file, options).diagnostics());
 }
 
 Diagnostics migrate_content_file(const std::filesystem::path& file) {

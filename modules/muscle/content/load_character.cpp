@@ -52,6 +52,14 @@ class MuscleChain {
   const std::vector<std::unique_ptr<OpenFile>>& files() const { return files_; }
   const fs::path& path(std::size_t i) const { return paths_[i]; }
 
+  // The nearest rule that there is, else one that is not given.
+  const MirrorRule& mirror() const {
+    for (const auto& file : files_) {
+      if (file->content.mirror.given()) return file->content.mirror;
+    }
+    return files_.front()->content.mirror;
+  }
+
  private:
   bool add(const fs::path& file) {
     sources_.note(file);
@@ -184,8 +192,8 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   load_skins(content, base, sources, *asset, diagnostics);
   load_bone_meshes(content, base, sources, *asset, diagnostics);
   std::vector<ResolvedMuscle> resolved;
+  MuscleNames names;
   if (asset->skeleton) {
-    MuscleNames names;
     for (std::size_t i = chain.files().size(); i-- > 0;) {  // the base's muscles come first
       resolve_muscles(chain.files()[i]->content, *asset->skeleton, options, names, resolved, diagnostics);
     }
@@ -194,12 +202,16 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
     load_muscle_meshes(chain.files()[i]->content, chain.path(i).parent_path(), resolved, sources, *asset, diagnostics);
   }
   if (asset->skeleton) check_muscles(resolved, *asset, diagnostics);
+  const MirrorRule& mirror = chain.mirror();
+  ResolvedCollision collision = load_collision(content, base, mirror, names, sources, *asset, diagnostics);
   if (diagnostics.ok() && !resolved.empty()) {
     FitStore store;
     if (options.fit == FitMode::kStored) store = load_fits(file, *asset, sources, diagnostics);
     const FitSettings settings{options.fit != FitMode::kNone, content.fit_supersampling, content.coarser_levels};
     build_levels(resolved, settings, store, *asset, diagnostics);
+    if (asset->muscles) place_images(*asset->muscles, mirror.axis, collision);
   }
+  asset->collision = std::move(collision.description);
   drop_repetitions(diagnostics);
   asset->files = sources.files();
   if (!diagnostics.ok()) return diagnostics;

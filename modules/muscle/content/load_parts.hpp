@@ -7,6 +7,7 @@
 #include "modules/muscle/content/character_asset.hpp"
 #include "modules/muscle/content/character_file.hpp"
 #include "modules/muscle/content/content_sources.hpp"
+#include "modules/muscle/content/resolve_collision.hpp"
 #include "modules/muscle/content/resolve_muscles.hpp"
 
 namespace fascicle::muscle {
@@ -29,5 +30,11 @@ void load_bone_meshes(const CharacterFile& file, const std::filesystem::path& ba
 void load_muscle_meshes(const CharacterFile& file, const std::filesystem::path& base,
                         std::span<const ResolvedMuscle> muscles, ContentSources& sources, CharacterAsset& asset,
                         Diagnostics& diagnostics);
+
+// The collision file that `file` names, its names looked up among asset.descriptions and asset.skeleton; `names` are
+// those of all muscles, `mirror` the rule to mirror by. Images are yet to be placed.
+ResolvedCollision load_collision(const CharacterFile& file, const std::filesystem::path& base, const MirrorRule& mirror,
+                                 const MuscleNames& names, ContentSources& sources, const CharacterAsset& asset,
+                                 Diagnostics& diagnostics);
 
 }  // namespace fascicle::muscle

@@ -68,7 +68,7 @@ std::vector<Edit> edits_from_0(const JsonNode& root, ContentKind kind) {
     edit_members(root, kCharacter0, edits);
     edit_members(root.member("lod"), kLevel0, edits);
     for (const JsonNode muscle : root.member("muscles")) edit_members(muscle, kMuscle0, edits);
-  } else {
+  } else if (kind == ContentKind::kScene) {
     edit_members(root, kScene0, edits);
     for (const JsonNode character : root.member("characters")) edit_members(character, kSceneCharacter0, edits);
     edit_members(root.member("camera"), kCamera0, edits);
@@ -122,7 +122,9 @@ std::optional<ContentKind> content_kind(const std::filesystem::path& file, const
   const std::string name = file.filename().string();
   if (name.ends_with(".character.json")) return ContentKind::kCharacter;
   if (name.ends_with(".scene.json")) return ContentKind::kScene;
+  if (name.ends_with(".collision.json")) return ContentKind::kCollision;
   if (root.member("characters").exists()) return ContentKind::kScene;
+  if (root.member("transversals").exists() || root.member("stay_out").exists()) return ContentKind::kCollision;
   if (root.member("skeleton").exists() || root.member("muscles").exists()) return ContentKind::kCharacter;
   return std::nullopt;
 }

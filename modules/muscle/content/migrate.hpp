@@ -12,6 +12,7 @@
 //   scene file      /fps                             is /step_hz
 //     a character   path, heading_degrees (degrees)  are file, heading (rad)
 //     the camera    fov_degrees (degrees)            is fov (rad)
+// There are no collision files of version 0.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +27,10 @@ namespace fascicle::muscle {
 
 inline constexpr int kContentVersion = 1;
 
-enum class ContentKind : std::uint8_t { kCharacter, kScene };
+enum class ContentKind : std::uint8_t { kCharacter, kScene, kCollision };
 
-// What the file is by its name (.character.json, .scene.json), else by its members; nothing where neither tells.
+// What the file is by its name (.character.json, .scene.json, .collision.json), else by its members; nothing where
+// neither tells.
 std::optional<ContentKind> content_kind(const std::filesystem::path& file, const JsonNode& root);
 
 // The document in the current version, as it is where it has that already. Errors: no version, not a whole number, a

@@ -7,6 +7,7 @@
 
 #include "engine/content/json_reader.hpp"
 #include "modules/muscle/content/character_file.hpp"
+#include "modules/muscle/content/collision_file.hpp"
 #include "modules/muscle/content/migrate.hpp"
 #include "modules/muscle/content/scene_file.hpp"
 
@@ -42,6 +43,8 @@ FieldLog fields_of(const std::map<std::string, JsonNode>& schemas) {
 constexpr std::string_view kEmptyCharacter = R"({ "skeleton": {}, "skin": {}, "bone_meshes": [{}], "muscle_meshes": {},
   "mirror": {}, "level": {}, "fit": {}, "muscles": [{ "origin": { "area": {} }, "via": [{}], "insertion": {},
   "profile": {}, "tendon": {}, "mesh": {} }] })";
+constexpr std::string_view kEmptyCollision =
+    R"({ "settings": {}, "transversals": [{ "first": {}, "second": {} }], "stay_out": [{}], "ignore": [{}] })";
 constexpr std::string_view kEmptyScene = R"({ "characters": [{ "animation": {} }], "camera": {} })";
 
 const std::map<std::string, std::string> kKindOfPath = {
@@ -50,7 +53,9 @@ const std::map<std::string, std::string> kKindOfPath = {
     {"/muscles/0/origin", "attachment"}, {"/muscles/0/insertion", "attachment"}, {"/muscles/0/via/0", "via"},
     {"/muscles/0/origin/area", "area"}, {"/muscles/0/mesh", "mesh"}, {"/fit", "fit"},
     {"/muscles/0/profile", "profile"}, {"/muscles/0/tendon", "tendon"}, {"/characters/0", "scene_character"},
-    {"/characters/0/animation", "animation"}, {"/camera", "camera"}};
+    {"/characters/0/animation", "animation"}, {"/camera", "camera"}, {"/settings", "settings"}, {"/transversals/0", "transversal"},
+    {"/transversals/0/first", "place"}, {"/transversals/0/second", "partner"}, {"/stay_out/0", "stay_out"},
+    {"/ignore/0", "ignore"}};
 
 struct Known {
   FieldLog fields;
@@ -64,6 +69,8 @@ Known ask_readers(std::string_view text, const std::string& root_kind) {
   const ReadContext context{diagnostics, &known.fields};
   if (root_kind == "scene") {
     read_scene_file(document.root(), context);
+  } else if (root_kind == "collision") {
+    read_collision_file(document.root(), context);
   } else {
     read_character_file(document.root(), context);
   }
@@ -107,6 +114,14 @@ TEST(Schema, SceneAndLoaderKnowTheSameFields) {
   EXPECT_EQ(required_of(schemas, {"characters"}), known.required);
 }
 
+TEST(Schema, CollisionAndLoaderKnowTheSameFields) {
+  const JsonDocument schema = read_schema("collision.schema.json");
+  const auto schemas = object_schemas(schema, "collision");
+  const Known known = ask_readers(kEmptyCollision, "collision");
+  EXPECT_EQ(fields_of(schemas), known.fields);
+  EXPECT_EQ(required_of(schemas, {"first", "second"}), known.required);
+}
+
 // Every field has a description, every number one with its unit in brackets; unknown fields are refused.
 void expect_documented(const JsonDocument& schema, const std::string& root_kind) {
   for (const auto& [kind, object] : object_schemas(schema, root_kind)) {
@@ -136,10 +151,11 @@ void expect_documented(const JsonDocument& schema, const std::string& root_kind)
 TEST(Schema, EveryFieldIsDocumented) {
   expect_documented(read_schema("character.schema.json"), "character");
   expect_documented(read_schema("scene.schema.json"), "scene");
+  expect_documented(read_schema("collision.schema.json"), "collision");
 }
 
 TEST(Schema, HasTheLoadersVersion) {
-  for (const char* name : {"character.schema.json", "scene.schema.json"}) {
+  for (const char* name : {"character.schema.json", "scene.schema.json", "collision.schema.json"}) {
     const JsonDocument schema = read_schema(name);
     std::int32_t version = 0;
     Diagnostics diagnostics;
