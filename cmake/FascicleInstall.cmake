@@ -23,4 +23,5 @@ configure_package_config_file(cmake/fascicle-config.cmake.in ${CMAKE_BINARY_DIR}
   INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/fascicle-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/fascicle-config.cmake ${CMAKE_BINARY_DIR}/fascicle-config-version.cmake
+  cmake/FindDebianOpenVDB.cmake
   DESTINATION ${config_dir})

@@ -48,6 +48,7 @@ struct LoadOptions {
   std::optional<std::uint32_t> section_vertices = std::nullopt;          // |C|, even, >= 6
   std::optional<std::uint32_t> longitudinal_subdivision = std::nullopt;  // LSS, 0..6
   FitMode fit = FitMode::kStored;
+  bool bone_fields = true;  // for the collision of muscles; false: none are made
 };
 
 // A rigid mesh that follows one bone: `transform` takes its vertices to the bone's frame (m).

@@ -10,6 +10,7 @@
 #include "engine/content/gltf_reader.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
 #include "modules/muscle/asset/check_descriptions.hpp"
+#include "modules/muscle/content/bone_field_store.hpp"
 #include "modules/muscle/content/character_asset.hpp"
 #include "modules/muscle/content/build_levels.hpp"
 #include "modules/muscle/content/character_file.hpp"
@@ -212,6 +213,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
     if (asset->muscles) place_images(*asset->muscles, mirror.axis, collision);
   }
   asset->collision = std::move(collision.description);
+  if (options.bone_fields && asset->muscles) load_bone_fields(file, *asset, diagnostics);
   drop_repetitions(diagnostics);
   asset->files = sources.files();
   if (!diagnostics.ok()) return diagnostics;
