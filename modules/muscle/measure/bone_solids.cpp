@@ -29,6 +29,13 @@ TriangleMesh in_bone_frame(const BoneMesh& mesh) {
 struct BoneSolid::Mesh {
   explicit Mesh(const CleanMesh& clean)
       : tree(clean.mesh), winding(clean.mesh), closed(clean.defects.closed()) {}
+
+  // Winding number above a half. A closed mesh is wound round as often as a ray crosses it, which is far quicker to
+  // count; the solid angles' sum is for meshes with holes and doubtful edges.
+  bool inside(const glm::vec3& point) const {
+    return closed ? tree.windings(point) > 0 : winding.inside(glm::dvec3(point));
+  }
+
   SolidTree tree;
   WindingField winding;
   bool closed;
@@ -49,12 +56,14 @@ float BoneSolid::bound_in(const Box& box) const {
   const float reach = 1.001f * glm::distance(middle, box.upper);
   const auto distance = static_cast<float>(mesh_->tree.distance_beyond(middle, 0.0));
   // The surface of a closed mesh alone parts inside from outside. Elsewhere the winding number is a harmonic function
-  // away from the triangles: by Harnack's inequality it is below a half within half the way to them where it is below
-  // 1/12 in the middle. That tells what is outside; the inside of such a mesh is always asked exactly.
-  if (mesh_->closed ? distance > reach : distance > 2.0f * reach) {
-    const double winding = mesh_->winding.at(middle);
-    if (winding < (mesh_->closed ? 0.5 : 0.07)) return 0.0f;
-    if (mesh_->closed) return -(distance + reach);
+  // away from the triangles: by Harnack's inequality it stays below a half within half the way to them where it is
+  // below 1/12 in the middle, and above a half likewise.
+  if (mesh_->closed) {
+    if (distance > reach) return mesh_->inside(middle) ? -(distance + reach) : 0.0f;
+  } else if (distance > 2.0f * reach) {
+    const double winding = mesh_->winding.at(glm::dvec3(middle));
+    if (winding < 0.07) return 0.0f;
+    if (winding > 0.93) return -(distance + reach);
   }
   return distance + reach;
 }
@@ -98,7 +107,7 @@ double BoneSolid::depth_beyond(const glm::vec3& point, double enough) const {
   if (bound == 0.0f || static_cast<double>(std::abs(bound)) <= enough) return 0.0;
   const double distance = mesh_->tree.distance_beyond(point, enough);
   if (distance <= enough) return 0.0;
-  return bound < 0.0f || mesh_->winding.inside(glm::dvec3(point)) ? distance : 0.0;
+  return bound < 0.0f || mesh_->inside(point) ? distance : 0.0;
 }
 
 double BoneSolid::exact_depth(const glm::vec3& point) const {
