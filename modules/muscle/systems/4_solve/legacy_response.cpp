@@ -23,9 +23,9 @@ using Flags = std::array<std::uint8_t, kMaxSectionVertices>;
 
 class Response {
  public:
-  Response(const CollisionAsset& asset, const LegacyPlan& plan, std::span<const glm::mat4> bones, ActionLines& lines,
-           CrossSections& sections, MuscleCollision& collision)
-      : asset_(asset), plan_(plan), bones_(bones), lines_(lines), sections_(sections), collision_(collision) {}
+  Response(const CollisionAsset& asset, const LegacyPlan& plan, std::span<const glm::mat4> bones,
+           const CrossSections& sections, ActionLines& lines, MuscleCollision& collision)
+      : asset_(asset), plan_(plan), bones_(bones), sections_(sections), lines_(lines), collision_(collision) {}
 
   LegacyOutcome run() {
     for (const Transversal& transversal : asset_.transversals) yield_to(transversal);
@@ -48,7 +48,7 @@ class Response {
     const Circle& circle = asset_.muscles->circles[asset_.muscles->layouts[section.muscle].circle];
     const glm::vec3 u(sections_.ux[slot], sections_.uy[slot], sections_.uz[slot]);
     const glm::vec3 v(sections_.vx[slot], sections_.vy[slot], sections_.vz[slot]);
-    return centre(section) + sections_.radii[section.first_radius + i] * (circle.cosines[i] * u + circle.sines[i] * v);
+    return centre(section) + collision_.radii[section.first_radius + i] * (circle.cosines[i] * u + circle.sines[i] * v);
   }
 
   std::span<glm::vec3> place(std::uint32_t number, Row& row) const {
@@ -64,9 +64,11 @@ class Response {
     return number + 1 == asset_.first_section[asset_.sections[number].muscle + 1];
   }
 
+  bool is_held(const CollisionSection& section) const { return lines_.any_held && lines_.held[section.muscle] != 0; }
+
   // Adds to a centre's displacement, which is kept in its bone's frame.
   void move(const CollisionSection& section, const glm::vec3& by) {
-    if (section.end || by == glm::vec3(0.0f)) return;
+    if (section.end || is_held(section) || by == glm::vec3(0.0f)) return;
     const glm::mat3 to_world(bones_[section.bone]);
     const std::uint32_t slot = section.slot;
     const glm::vec3 before(collision_.offset_x[slot], collision_.offset_y[slot], collision_.offset_z[slot]);
@@ -136,6 +138,7 @@ class Response {
   void respond(std::span<const LegacySweep> sweeps) {
     const std::uint32_t number = sweeps[0].section;
     const CollisionSection& section = asset_.sections[number];
+    if (is_held(section)) return;
     const std::uint32_t count = section.count, half = count / 2;
     const std::span<const glm::vec3> vertices = place(number, vertices_);
     sweep_edges(vertices, place(is_last(number) ? number - 1 : number + 1, rows_[0]),
@@ -150,7 +153,7 @@ class Response {
     mark_vertices(std::span(latitudinal_hits_).first(count), fixed);
 
     const glm::vec3 axis = centre(section);
-    const std::span<float> radii = std::span(sections_.radii).subspan(section.first_radius, count);
+    const std::span<float> radii = std::span(collision_.radii).subspan(section.first_radius, count);
     glm::vec3 push(0.0f);
     for (std::uint32_t i = 0; i < count; ++i) {
       bool pushes = diagonal_hits_[i] != 0;
@@ -180,8 +183,8 @@ class Response {
   const CollisionAsset& asset_;
   const LegacyPlan& plan_;
   const std::span<const glm::mat4> bones_;
+  const CrossSections& sections_;
   ActionLines& lines_;
-  CrossSections& sections_;
   MuscleCollision& collision_;
   LegacyOutcome outcome_;
 
@@ -220,8 +223,8 @@ LegacyPlan make_legacy_plan(const CollisionAsset& asset, std::vector<std::shared
 }
 
 LegacyOutcome respond_as_legacy(const CollisionAsset& asset, const LegacyPlan& plan, std::span<const glm::mat4> bones,
-                                ActionLines& lines, CrossSections& sections, MuscleCollision& collision) {
-  return Response(asset, plan, bones, lines, sections, collision).run();
+                                const CrossSections& sections, ActionLines& lines, MuscleCollision& collision) {
+  return Response(asset, plan, bones, sections, lines, collision).run();
 }
 
 std::size_t heap_bytes(const LegacyPlan& plan) {

@@ -67,10 +67,10 @@ struct LegacyOutcome {
 };
 
 // One run for one musculature. `bones`: to world, by bone, as many as the asset has. `lines` have the kept displacement
-// in them already, and `sections` the frames of those lines. Moves the lines' points and adds the same to
-// `collision.offset_*`, and changes the sections' radii. Allocates nothing; not finite in, nothing done.
+// in them already, and `sections` the frames of those lines (their radii are not read). Moves the lines' points, adds
+// the same to `collision.offset_*`, and changes `collision.radii`. Held muscles stay as they are. Allocates nothing.
 LegacyOutcome respond_as_legacy(const CollisionAsset& asset, const LegacyPlan& plan, std::span<const glm::mat4> bones,
-                                ActionLines& lines, CrossSections& sections, MuscleCollision& collision);
+                                const CrossSections& sections, ActionLines& lines, MuscleCollision& collision);
 
 std::size_t heap_bytes(const LegacyPlan& plan);  // without the bones, which others share
 

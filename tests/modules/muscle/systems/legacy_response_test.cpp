@@ -67,6 +67,7 @@ struct World {
     lay_out(*muscles, sections);
     collision.offset_x.assign(muscles->slot_count, 0.0f);
     collision.offset_y = collision.offset_z = collision.offset_x;
+    collision.radii = muscles->rest_radii;
     // Vertex 0 looks along +x whatever direction the frames took at rest.
     for (std::uint32_t slot = 0; slot < muscles->slot_count; ++slot) {
       sections.ux[slot] = sections.vy[slot] = 1.0f;
@@ -91,7 +92,7 @@ struct World {
     tag.other_vertex = other_vertex;
     asset.transversals.push_back(tag);
   }
-  LegacyOutcome run() { return respond_as_legacy(asset, plan, bones, lines, sections, collision); }
+  LegacyOutcome run() { return respond_as_legacy(asset, plan, bones, sections, lines, collision); }
 
   std::uint32_t number(std::uint32_t muscle, std::uint32_t k) const { return asset.first_section[muscle] + k; }
   glm::vec3 centre(std::uint32_t number) const {
@@ -103,7 +104,7 @@ struct World {
     return {collision.offset_x[slot], collision.offset_y[slot], collision.offset_z[slot]};
   }
   std::span<const float> radii(std::uint32_t number) const {
-    return std::span(sections.radii).subspan(asset.sections[number].first_radius, kCount);
+    return std::span(collision.radii).subspan(asset.sections[number].first_radius, kCount);
   }
   bool all_finite() const {
     for (std::uint32_t k = 0; k < asset.sections.size(); ++k) {
@@ -186,13 +187,21 @@ TEST(LegacyResponse, NotFiniteInNothingDone) {
   expect_nothing(world, true);
 }
 
+TEST(LegacyResponse, HeldMusclesStay) {
+  World world = pressed();
+  world.lines.held[0] = 1;
+  world.lines.any_held = true;
+  const LegacyOutcome outcome = world.run();
+  EXPECT_EQ(outcome.moved + outcome.shrunk + outcome.inflated, 0u);
+}
+
 TEST(LegacyResponse, FreeOfEverythingItStays) {
   World world = pressed();
   world.bones[1] = glm::translate(glm::mat4(1.0f), {1.0f, 0.0f, 0.0f});
   const World before = world;
   const LegacyOutcome outcome = world.run();
   EXPECT_EQ(outcome.moved + outcome.shrunk + outcome.inflated + outcome.clamped, 0u);
-  EXPECT_EQ(world.sections.radii, before.sections.radii);
+  EXPECT_EQ(world.collision.radii, before.collision.radii);
   EXPECT_EQ(world.lines.x, before.lines.x);
 }
 
@@ -232,7 +241,7 @@ TEST(LegacyResponse, WhatItDidStays) {
     const LegacyOutcome outcome = world.run();
     EXPECT_EQ(outcome.moved + outcome.shrunk + outcome.inflated, 0u);
   }
-  EXPECT_EQ(world.sections.radii, after.sections.radii);
+  EXPECT_EQ(world.collision.radii, after.collision.radii);
   EXPECT_EQ(world.lines.x, after.lines.x);
   EXPECT_EQ(world.collision.offset_x, after.collision.offset_x);
 }
