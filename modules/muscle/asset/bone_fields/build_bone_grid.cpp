@@ -90,7 +90,10 @@ class SignLeaf {
       insides[i] = same ? insides[before] : inside(leaf.offsetToGlobalCoord(i));
     }
     for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
-      if (!insides[i]) continue;
+      if (!insides[i]) {
+        if (!leaf.isValueOn(i)) leaf.setValueOnly(i, sample_reach(voxel_));  // as it comes back from a file
+        continue;
+      }
       const bool known = leaf.isValueOn(i);
       leaf.setValueOn(i, -(known ? distances[i] : nearest_.at(place(leaf.offsetToGlobalCoord(i))).distance));
     }
