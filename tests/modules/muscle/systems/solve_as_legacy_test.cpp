@@ -12,6 +12,7 @@
 #include "modules/muscle/systems/1_drive/drive_action_lines.hpp"
 #include "modules/muscle/systems/2_shape/build_frames.hpp"
 #include "tests/modules/muscle/systems/muscle_world.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -125,6 +126,53 @@ TEST(SolveAsLegacy, WhatIsMovedStaysMovedWithItsBone) {
   const glm::vec3 expected(turn * glm::vec4(place, 1.0f));
   EXPECT_GT(glm::length(moved), 1.0e-3f);
   EXPECT_LT(glm::distance(line_point(*legacy.muscles, lines, 1, 2), expected), 1.0e-5f);
+}
+
+// Each muscle tagged with the next: far beyond the thesis's 25 constraints. It does not
+// settle; nothing of it ever leaves as a number that is not finite, and steps allocate nothing.
+TEST(SolveAsLegacy, FortyEightMusclesWalkAndStayFinite) {
+  const auto muscles = synthetic_asset();
+  const std::vector<glm::mat4> rest = test::rest_bones();
+  CollisionDescription description;
+  description.settings.mode = CollisionMode::kLegacy;
+  for (std::uint32_t m = 0; m + 1 < muscles->size(); ++m) {
+    for (const float fraction : {0.3f, 0.5f, 0.7f}) {
+      TransversalTag tag;
+      tag.first = {.muscle = m, .fraction = fraction, .angle = fraction};
+      tag.second = {.muscle = m + 1, .fraction = fraction, .angle = 3.0f};
+      description.transversals.push_back(tag);
+    }
+  }
+  const std::vector<std::shared_ptr<const BoneField>> no_fields(rest.size());
+  const std::array levels{build_collision_asset(muscles, description, no_fields, rest)};
+  MuscleWorld muscle_world;
+  ecs::World& world = muscle_world.world;
+  ecs::Schedule schedule;
+  schedule.add("drive_action_lines", drive_action_lines);
+  schedule.add("carry_deformation", carry_deformation);
+  schedule.add("build_frames", build_frames);
+  schedule.add("solve_as_legacy", solve_as_legacy);
+  const ecs::Entity character = muscle_world.add_character(rest);
+  const ecs::Entity musculature = spawn_musculature(world, character, muscles);
+  add_collision(world, musculature, levels, description.settings);
+  add_legacy_collision(world, musculature, {});
+  std::uint64_t moved = 0, allocations = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    muscle_world.pose(character, test::walk_bones(static_cast<float>(frame) / 60.0f));
+    const test::AllocationScope scope;
+    schedule.run(world, muscle_world.arena);
+    if (frame > 10) allocations += scope.allocations();
+    moved += world.get<LegacyCollision>(musculature).last.moved;
+    const ActionLines& lines = world.get<ActionLines>(musculature);
+    for (std::uint32_t slot = 0; slot < muscles->slot_count; ++slot) {
+      ASSERT_LT(std::abs(lines.x[slot]) + std::abs(lines.y[slot]) + std::abs(lines.z[slot]), 20.0f) << frame;
+    }
+    for (const float radius : world.get<CrossSections>(musculature).radii) {
+      ASSERT_LE(std::abs(radius), kLegacyReach) << frame;
+    }
+  }
+  EXPECT_GT(moved, 100u);
+  EXPECT_EQ(allocations, 0u);
 }
 
 TEST(MakeLegacyBones, OneTreeABoneInItsFrame) {
