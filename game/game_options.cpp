@@ -49,7 +49,9 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--stats", options.stats_file, "Write the time per system (.csv, .json, else a table)");
   app.add_flag("--detail", options.detail, "Statistics per character and per muscle as well");
   app.add_option("--trace", options.trace_file, "Write a Chrome trace, which ui.perfetto.dev opens");
-  app.add_option("--report", options.report_file, "Write JSON with a value per frame of every metric");
+  app.add_option("--report", options.report_file,
+                 "Write JSON with a value per frame of every metric; penetration is measured for it, which takes some\n"
+                 "tens of milliseconds a character and frame");
   app.add_option("--screenshot", screenshot, "Write a PNG of the last frame, or of one: FILE[@FRAME]");
   app.add_option("--contact-sheet", options.contact_sheet_file,
                  "Write a PNG with the cycle's frames from four sides, with and without skin");

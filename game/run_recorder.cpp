@@ -59,6 +59,9 @@ void RunRecorder::record_step(Simulation& simulation) {
   if (!options_.report_file.empty()) {
     report_.begin_frame();
     simulation.record_metrics(report_);
+    const std::int64_t start = monotonic_ns();
+    penetration_.record(simulation, report_);
+    stats_.record_span("report", monotonic_ns() - start);
   }
   if (options_.detail) simulation.world().resource<CostLedger>().end_frame(stats_.warming_up());
 }

@@ -10,6 +10,7 @@
 #include "engine/loop/trace.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/game_options.hpp"
+#include "game/penetration_report.hpp"
 #include "game/report.hpp"
 #include "game/simulation.hpp"
 
@@ -43,6 +44,7 @@ class RunRecorder {
   FrameStats stats_;
   std::optional<Trace> trace_;
   Report report_;
+  PenetrationReport penetration_;
   std::int64_t frame_start_ns_ = 0;
   std::uint64_t frames_ = 0;
   std::uint64_t gpu_frame_ = 0;  // newest GPU measurement taken into the statistics
