@@ -77,11 +77,12 @@ ClosestPoints& ClosestPoints::operator=(ClosestPoints&&) noexcept = default;
 
 bool ClosestPoints::empty() const { return state_->tree.nodes.empty(); }
 
-ClosestPoint ClosestPoints::at(const glm::vec3& point) const {
-  const TriangleTree& tree = state_->tree;
+namespace {
+
+// The nearest point, of those whose square distance is less than `nearest`.
+ClosestPoint search(const TriangleTree& tree, const glm::vec3& point, double nearest) {
   if (tree.nodes.empty() || !is_finite(point)) return {};
   const glm::dvec3 p(point);
-  double nearest = std::numeric_limits<double>::max();
   glm::dvec3 best(0.0);
   std::uint32_t triangle = ClosestPoint{}.triangle;
 
@@ -120,8 +121,19 @@ ClosestPoint ClosestPoints::at(const glm::vec3& point) const {
       }
     }
   }
+  if (triangle == ClosestPoint{}.triangle) return {};
   constexpr double kLargest = std::numeric_limits<float>::max();
   return {glm::vec3(best), static_cast<float>(std::min(glm::length(best - p), kLargest)), triangle};
+}
+
+}  // namespace
+
+ClosestPoint ClosestPoints::at(const glm::vec3& point) const {
+  return search(state_->tree, point, std::numeric_limits<double>::max());
+}
+
+ClosestPoint ClosestPoints::within(const glm::vec3& point, float limit) const {
+  return search(state_->tree, point, double{limit} * double{limit});
 }
 
 }  // namespace fascicle

@@ -29,6 +29,9 @@ class ClosestPoints {
 
   // Exact but for rounding. For a mesh without triangles, or a point that is not finite, a default ClosestPoint.
   ClosestPoint at(const glm::vec3& point) const;
+  // The same where the nearest point is nearer than `limit` (m), and a default ClosestPoint where it is not; the quicker
+  // the less the limit is.
+  ClosestPoint within(const glm::vec3& point, float limit) const;
 
  private:
   struct State;
