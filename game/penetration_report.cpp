@@ -56,8 +56,7 @@ void PenetrationReport::record(Simulation& simulation, Report& report) {
       fallbacks += static_cast<double>(collision->fallbacks);
       muscle::measure_section_areas(*musculature.asset, surfaces, tendons, areas_);
       const muscle::AreaError worst = muscle::worst_area_error(*musculature.asset, areas_, collision->target_area);
-      // One that is not a number must not hide.
-      if (!(worst.relative <= area)) area = worst.relative;
+      area = std::max(area, worst.relative);
     }
   });
   if (!any) return;

@@ -13,8 +13,9 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr float kCell = 0.004f;  // m
-constexpr int kBlock = 4;        // cells along a block's side: most blocks are decided as one
+constexpr float kSmallestCell = 0.004f;  // m
+constexpr float kMostCells = 5.0e5f;     // larger ones where they would be more than about this many
+constexpr int kBlock = 4;                // cells along a block's side: most blocks are decided as one
 
 TriangleMesh in_bone_frame(const BoneMesh& mesh) {
   TriangleMesh moved;
@@ -50,7 +51,7 @@ BoneSolid::BoneSolid(const BoneMesh& mesh) : bone_(mesh.bone) {
   fill_cells();
 }
 
-// For the cells' float: outside 0, inside negative, unknown positive.
+// What a cell of that box holds.
 float BoneSolid::bound_in(const Box& box) const {
   const glm::vec3 middle = 0.5f * (box.lower + box.upper);
   const float reach = 1.001f * glm::distance(middle, box.upper);
@@ -70,14 +71,15 @@ float BoneSolid::bound_in(const Box& box) const {
 
 void BoneSolid::fill_cells() {
   const glm::vec3 size = box_.upper - box_.lower;
-  counts_ = glm::max(glm::ivec3(glm::ceil(size / kCell)), 1);
+  cell_ = std::max(kSmallestCell, std::cbrt(size.x * size.y * size.z / kMostCells));
+  counts_ = glm::max(glm::ivec3(glm::ceil(size / cell_)), 1);
   const glm::ivec3 blocks = (counts_ + kBlock - 1) / kBlock;
   cells_.assign(static_cast<std::size_t>(counts_.x) * static_cast<std::size_t>(counts_.y) *
                     static_cast<std::size_t>(counts_.z),
                 0.0f);
   const auto box_of = [&](const glm::ivec3& cell, int length) {
-    const glm::vec3 lower = box_.lower + kCell * glm::vec3(cell);
-    return Box{lower, lower + kCell * static_cast<float>(length)};
+    const glm::vec3 lower = box_.lower + cell_ * glm::vec3(cell);
+    return Box{lower, lower + cell_ * static_cast<float>(length)};
   };
   const auto fill_block = [&](const glm::ivec3& block) {
     const glm::ivec3 first = kBlock * block, end = glm::min(first + kBlock, counts_);
@@ -86,7 +88,7 @@ void BoneSolid::fill_cells() {
       for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {
           const auto cell = static_cast<std::size_t>((z * counts_.y + y) * counts_.x + x);
-          cells_[cell] = whole == 0.0f ? 0.0f : bound_in(box_of({x, y, z}, 1));
+          cells_[cell] = whole <= 0.0f ? whole : bound_in(box_of({x, y, z}, 1));
         }
       }
     }
@@ -102,7 +104,7 @@ void BoneSolid::fill_cells() {
 
 double BoneSolid::depth_beyond(const glm::vec3& point, double enough) const {
   if (!box_.contains(point)) return 0.0;
-  const glm::ivec3 cell = glm::clamp(glm::ivec3((point - box_.lower) / kCell), glm::ivec3(0), counts_ - 1);
+  const glm::ivec3 cell = glm::clamp(glm::ivec3((point - box_.lower) / cell_), glm::ivec3(0), counts_ - 1);
   const float bound = cells_[static_cast<std::size_t>((cell.z * counts_.y + cell.y) * counts_.x + cell.x)];
   if (bound == 0.0f || static_cast<double>(std::abs(bound)) <= enough) return 0.0;
   const double distance = mesh_->tree.distance_beyond(point, enough);

@@ -41,6 +41,7 @@ class BoneSolid {
   std::unique_ptr<const Mesh> mesh_;
   // By cell: 0 where it is outside of the bone; else no point of it is deeper than this, and negative where all of it
   // is inside.
+  float cell_ = 0.0f;  // m, its side
   glm::ivec3 counts_{0};
   std::vector<float> cells_;
 };

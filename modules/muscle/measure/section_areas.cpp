@@ -1,6 +1,7 @@
 #include "modules/muscle/measure/section_areas.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -43,9 +44,9 @@ AreaError worst_area_error(const MuscleAsset& asset, std::span<const float> area
     const std::uint32_t count = asset.muscles[m].section_count;
     for (std::uint32_t k = 0; k < count; ++k, ++i) {
       if (i >= areas.size() || i >= targets.size() || k == 0 || k + 1 == count || !(targets[i] > 0.0f)) continue;
-      const float relative = std::abs(areas[i] - targets[i]) / targets[i];
-      // One that is not a number must not hide.
-      if (!(relative <= worst.relative)) worst = {relative, m, k};
+      float relative = std::abs(areas[i] - targets[i]) / targets[i];
+      if (!std::isfinite(relative)) relative = std::numeric_limits<float>::infinity();
+      if (relative > worst.relative) worst = {relative, m, k};
     }
   }
   return worst;

@@ -16,7 +16,7 @@ void measure_section_areas(const MuscleAsset& asset, const MuscleSurfaces& surfa
                            std::vector<float>& areas);
 
 struct AreaError {
-  float relative = 0.0f;      // of the area, without sign
+  float relative = 0.0f;  // of the target, without sign; infinity where an area is not finite
   std::uint32_t muscle = 0, section = 0;
 };
 // The worst. Targets (m^2) and areas one a section; targets of zero do not count, nor do first and last sections.
