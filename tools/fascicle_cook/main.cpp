@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
   cook::Command chosen;
   cook::add_import_osim(program, chosen);
   cook::add_fit(program, chosen);
+  cook::add_constrain(program, chosen);
   cook::add_counts(program, chosen);
   cook::add_slices(program, chosen);
 #ifdef FASCICLE_COOK_PLAYS

@@ -80,6 +80,7 @@ bool write_character(const std::filesystem::path& file, const std::vector<Muscle
   "attachment_space": "bone",
   "level": { "section_vertices": 16, "longitudinal_subdivision": 2 },
   "specific_tension": 610000,
+  "collision": "walker.collision.json",
   "muscles": [
 )";
   for (std::size_t i = 0; i < muscles.size(); ++i)

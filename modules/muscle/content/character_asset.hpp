@@ -58,6 +58,13 @@ struct BoneMesh {
   std::shared_ptr<const TriangleMesh> mesh;
 };
 
+// The other side of the body, by the character's mirror rule.
+struct MirrorMap {
+  int axis = -1;  // of the reflection; -1: the character has no rule, and the lists are empty
+  // By description and by bone: its image, itself where it lies on both sides, -1 where there is none.
+  std::vector<std::int32_t> muscles, bones;
+};
+
 struct CharacterAsset {
   std::string name;
   std::shared_ptr<const Skeleton> skeleton;
@@ -71,6 +78,7 @@ struct CharacterAsset {
   std::vector<MuscleFits> fits;                        // by description; empty where none was asked for
   // Anatomical meshes by the muscle's name, in the character's rest space (m). Heads of one mesh share the object.
   std::map<std::string, std::shared_ptr<const TriangleMesh>> muscle_meshes;
+  MirrorMap mirror;
   CollisionDescription collision;                      // enabled and without tags where the file names none
   // By bone of the skeleton: how far a point is from it; null where a bone has no mesh.
   std::vector<std::shared_ptr<const BoneField>> bone_fields;

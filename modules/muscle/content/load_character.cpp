@@ -204,6 +204,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   }
   if (asset->skeleton) check_muscles(resolved, *asset, diagnostics);
   const MirrorRule& mirror = chain.mirror();
+  if (asset->skeleton) asset->mirror = make_mirror_map(mirror, *asset);
   ResolvedCollision collision = load_collision(content, base, mirror, names, sources, *asset, diagnostics);
   if (diagnostics.ok() && !resolved.empty()) {
     FitStore store;

@@ -31,6 +31,9 @@ void load_muscle_meshes(const CharacterFile& file, const std::filesystem::path& 
                         std::span<const ResolvedMuscle> muscles, ContentSources& sources, CharacterAsset& asset,
                         Diagnostics& diagnostics);
 
+// The other side of asset.descriptions and asset.skeleton.
+MirrorMap make_mirror_map(const MirrorRule& rule, const CharacterAsset& asset);
+
 // The collision file that `file` names, its names looked up among asset.descriptions and asset.skeleton; `names` are
 // those of all muscles, `mirror` the rule to mirror by. Images are yet to be placed.
 ResolvedCollision load_collision(const CharacterFile& file, const std::filesystem::path& base, const MirrorRule& mirror,
