@@ -9,6 +9,7 @@
 #include "engine/animation/skinning_systems.hpp"
 #include "engine/math/state_hash.hpp"
 #include "modules/muscle/muscle.hpp"
+#include "modules/muscle/systems/4_solve/solve_as_legacy.hpp"
 
 namespace fascicle::game {
 namespace {
@@ -112,6 +113,7 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
   if (asset.levels) spawned.musculature = muscle::spawn_musculature(world_, spawned.entity, asset.levels);
   if (asset.levels && options_.collision) {
     muscle::add_collision(world_, spawned.musculature, asset.collision_levels, asset.collision.settings);
+    if (asset.collision.settings.mode == muscle::CollisionMode::kLegacy) add_legacy_collision(world_, spawned);
   }
   for (const std::shared_ptr<const SkinAsset>& skin : asset.skins) {
     const ecs::Entity entity = world_.create();
@@ -230,6 +232,15 @@ void Simulation::record_metrics(Report& report) const {
   report.record("muscle.level_switches", static_cast<double>(details.switches));
   report.record("muscle.vertices", static_cast<double>(details.vertices));
   report.record("held_steps", static_cast<double>(held_steps()));
+}
+
+void add_legacy_collision(ecs::World& world, const SpawnedCharacter& character) {
+  std::vector<muscle::LegacyBoneMesh> meshes;
+  for (const muscle::BoneMesh& bone : character.asset->bone_meshes) {
+    meshes.push_back({bone.bone, bone.transform, bone.mesh.get()});
+  }
+  muscle::add_legacy_collision(world, character.musculature,
+                               muscle::make_legacy_bones(meshes, character.asset->skeleton->rest_world.size()));
 }
 
 }  // namespace fascicle::game

@@ -105,4 +105,7 @@ class Simulation {
   glm::vec3 start_{0.0f};  // of the first character's moving root, at its first step
 };
 
+// Lets a character's muscles respond to collisions in the thesis's way while their settings' mode is kLegacy.
+void add_legacy_collision(ecs::World& world, const SpawnedCharacter& character);
+
 }  // namespace fascicle::game

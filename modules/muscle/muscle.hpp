@@ -9,6 +9,7 @@
 #include "modules/muscle/asset/muscle_levels.hpp"
 #include "modules/muscle/components/action_lines.hpp"
 #include "modules/muscle/components/cross_sections.hpp"
+#include "modules/muscle/components/muscle_collision.hpp"
 #include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/components/muscle_measures.hpp"
 #include "modules/muscle/components/muscle_settings.hpp"

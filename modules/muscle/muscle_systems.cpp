@@ -1,11 +1,11 @@
 #include "modules/muscle/muscle_systems.hpp"
 
 #include "engine/ecs/schedule.hpp"
-#include "modules/muscle/systems/1_drive/carry_deformation.hpp"
 #include "modules/muscle/systems/1_drive/drive_action_lines.hpp"
 #include "modules/muscle/systems/1_drive/select_levels.hpp"
 #include "modules/muscle/systems/2_shape/build_frames.hpp"
 #include "modules/muscle/systems/2_shape/find_tendons.hpp"
+#include "modules/muscle/systems/4_solve/solve_as_legacy.hpp"
 #include "modules/muscle/systems/4_solve/solve_muscles.hpp"
 #include "modules/muscle/systems/5_present/measure_muscles.hpp"
 #include "modules/muscle/systems/5_present/write_surfaces.hpp"
@@ -13,15 +13,15 @@
 namespace fascicle::muscle {
 
 void add_muscle_systems(ecs::Schedule& schedule) {
-  // 1 drive: the viewer's distance chooses the level of detail, bones move the lines, what is deformed comes along.
+  // 1 drive: the viewer's distance chooses the level of detail, bones move the lines.
   schedule.add("select_levels", select_levels);
   schedule.add("drive_action_lines", drive_action_lines);
-  schedule.add("carry_deformation", carry_deformation);
   // 2 shape: lines carry the sections.
   schedule.add("build_frames", build_frames);
   schedule.add("find_tendons", find_tendons);
   // 4 solve: what collides is found and moved apart.
   schedule.add("solve_muscles", solve_muscles);
+  schedule.add("solve_as_legacy", solve_as_legacy);
   // 5 present: what others read.
   schedule.add("measure_muscles", measure_muscles);
   schedule.add("write_surfaces", write_surfaces);

@@ -74,6 +74,7 @@ CollideRun run_mode(const std::shared_ptr<const SceneAsset>& scene, CollideMode 
   const game::SpawnedCharacter character = simulation.characters().front();
   ecs::World& world = simulation.world();
   set_mode(world, character.musculature, mode);
+  if (mode == CollideMode::kLegacy) game::add_legacy_collision(world, character);
 
   CollideRun run;
   run.mode = mode;
@@ -141,6 +142,9 @@ CollideReport run_collide(const std::shared_ptr<const SceneAsset>& scene, const 
                           const CollideOptions& options) {
   const std::shared_ptr<const SceneAsset> played = alone(*scene);
   CollideReport report;
+  report.scene = scene->name;
+  report.step_hz = scene->step_hz;
+  report.options = options;
   report.character = played->characters.front().character;
   bool collides = false;
   {

@@ -32,6 +32,7 @@ struct TriangleMesh;
 namespace fascicle::muscle {
 
 class BoneField;
+struct CollisionAsset;
 struct MuscleAsset;
 struct MuscleLevels;
 
@@ -82,6 +83,7 @@ struct CharacterAsset {
   CollisionDescription collision;                      // enabled and without tags where the file names none
   // By bone of the skeleton: how far a point is from it; null where a bone has no mesh.
   std::vector<std::shared_ptr<const BoneField>> bone_fields;
+  std::vector<std::shared_ptr<const CollisionAsset>> collision_levels;  // by level of detail
   std::vector<std::filesystem::path> files;            // everything that was read, the character file first
 };
 

@@ -14,6 +14,7 @@
 #include "modules/muscle/content/character_asset.hpp"
 #include "modules/muscle/content/build_levels.hpp"
 #include "modules/muscle/content/character_file.hpp"
+#include "modules/muscle/content/collision_levels.hpp"
 #include "modules/muscle/content/content_sources.hpp"
 #include "modules/muscle/content/load_parts.hpp"
 #include "modules/muscle/content/migrate.hpp"
@@ -215,6 +216,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   }
   asset->collision = std::move(collision.description);
   if (options.bone_fields && asset->muscles) load_bone_fields(file, *asset, diagnostics);
+  if (diagnostics.ok()) build_collision_levels(*asset);
   drop_repetitions(diagnostics);
   asset->files = sources.files();
   if (!diagnostics.ok()) return diagnostics;

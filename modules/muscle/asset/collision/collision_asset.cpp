@@ -65,25 +65,53 @@ void list_sections(CollisionAsset& asset) {
   asset.first_section.push_back(static_cast<std::uint32_t>(asset.sections.size()));
 }
 
+// The rest place of a vertex.
+glm::vec3 rest_vertex(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k, std::uint32_t i) {
+  const std::uint32_t slot = muscles.slot(m, k);
+  const Circle& circle = muscles.circles[muscles.layouts[m].circle];
+  const glm::vec3 u(muscles.rest_ux[slot], muscles.rest_uy[slot], muscles.rest_uz[slot]);
+  const glm::vec3 v(muscles.rest_vx[slot], muscles.rest_vy[slot], muscles.rest_vz[slot]);
+  return rest_point(muscles, m, k) +
+         muscles.rest_radii[muscles.radius(m, k) + i] * (circle.cosines[i] * u + circle.sines[i] * v);
+}
+
+// A row's samples: the meridians, and between those that are far apart as many as keep the spacing.
+void add_row(std::uint32_t section, float weight, float spacing, CollisionAsset& asset) {
+  const MuscleAsset& muscles = *asset.muscles;
+  const std::uint32_t m = asset.sections[section].muscle, k = asset.sections[section].section;
+  const std::uint32_t count = asset.sections[section].count;
+  const auto place = [&](std::uint32_t i) {
+    const glm::vec3 here = rest_vertex(muscles, m, k, i);
+    return weight > 0.0f ? glm::mix(here, rest_vertex(muscles, m, k + 1, i), weight) : here;
+  };
+  SampleRow row{section, weight, static_cast<std::uint32_t>(asset.samples.size()), 0};
+  const float most = static_cast<float>(kMaxRowSamples / count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float apart = glm::distance(place(i), place(i + 1 == count ? 0 : i + 1));
+    const std::uint32_t parts = static_cast<std::uint32_t>(std::clamp(std::round(apart / spacing), 1.0f, most));
+    for (std::uint32_t j = 0; j < parts; ++j) {
+      asset.samples.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(65536u * j / parts)});
+    }
+  }
+  row.sample_count = static_cast<std::uint32_t>(asset.samples.size()) - row.first_sample;
+  asset.rows.push_back(row);
+}
+
 // Rows on the inner sections, and between sections as many as keep the spacing.
 void list_rows(float spacing, CollisionAsset& asset) {
   const MuscleAsset& muscles = *asset.muscles;
-  const auto add = [&](std::uint32_t section, float weight) {
-    asset.rows.push_back({section, weight, asset.sample_count});
-    asset.sample_count += asset.sections[section].count;
-  };
   for (std::uint32_t m = 0; m < muscles.size(); ++m) {
     asset.first_row.push_back(static_cast<std::uint32_t>(asset.rows.size()));
     const std::uint32_t last = muscles.muscles[m].section_count - 1;
     for (std::uint32_t k = 0; k < last; ++k) {
       const std::uint32_t section = asset.first_section[m] + k;
-      if (k > 0) add(section, 0.0f);
+      if (k > 0) add_row(section, 0.0f, spacing, asset);
       const float length = arc_at(muscles, m, k + 1) - arc_at(muscles, m, k);
       const std::uint32_t parts = static_cast<std::uint32_t>(std::clamp(std::ceil(length / spacing), 1.0f, 64.0f));
       for (std::uint32_t i = 1; i < parts; ++i) {
         const float weight = static_cast<float>(i) / static_cast<float>(parts);
         if ((k == 0 && weight < 0.5f) || (k + 1 == last && weight > 0.5f)) continue;
-        add(section, weight);
+        add_row(section, weight, spacing, asset);
       }
     }
   }
@@ -159,27 +187,44 @@ void allow_rest_overlaps(const CollisionDescription& description, std::span<cons
   const std::size_t bone_count = asset.bones.size();
   asset.row_bone_depths.assign(asset.rows.size() * bone_count, kNoDepths);
   asset.first_overlap.assign(asset.rows.size() + 1, 0);
+  asset.centre_bone_depths.assign(asset.sections.size() * bone_count, 0.0f);
+  for (std::size_t s = 0; s < asset.sections.size(); ++s) {
+    // A centre may be where the row on its section may.
+    const std::uint32_t m = asset.sections[s].muscle;
+    const auto on_section = [&](const SampleRow& row) { return row.section == s && row.weight == 0.0f; };
+    const auto first = asset.rows.begin() + asset.first_row[m], last = asset.rows.begin() + asset.first_row[m + 1];
+    const auto row = std::find_if(first, last, on_section);
+    if (row == last) continue;
+    const std::size_t r = static_cast<std::size_t>(row - asset.rows.begin());
+    for (std::size_t place = 0; place < bone_count; ++place) {
+      if (asset.row_touches_bone[r * bone_count + place] == 0) {
+        asset.centre_bone_depths[s * bone_count + place] = kNeverTouches;
+      }
+    }
+  }
   CollisionWork work;
   load_rest(asset, work);
-  work.contacts.reserve(std::size_t{16} * asset.sample_count + 1024);
+  work.contacts.reserve(std::size_t{16} * asset.samples.size() + 1024);
   find_contacts(asset, description.settings, rest_bones, work);
 
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>> overlaps;  // by row and other muscle
   for (const Contact& contact : work.contacts) {
     const float depth = -contact.found + kOverlapSlack;
     if (depth <= 0.0f) continue;
-    const std::uint32_t count = asset.sections[contact.section].count;
-    if (contact.bone >= 0) {
+    const std::uint32_t count = contact.row == kCentreRow ? 0 : asset.rows[contact.row].sample_count;
+    if (contact.row == kCentreRow) {
+      asset.centre_bone_depths[contact.section * bone_count + static_cast<std::size_t>(contact.bone)] = depth;
+    } else if (contact.bone >= 0) {
       std::uint32_t& first = asset.row_bone_depths[contact.row * bone_count + static_cast<std::size_t>(contact.bone)];
       if (first == kNoDepths) {
         first = static_cast<std::uint32_t>(asset.rest_depths.size());
         asset.rest_depths.resize(first + count, 0.0f);
       }
-      asset.rest_depths[first + contact.vertex] = std::max(asset.rest_depths[first + contact.vertex], depth);
+      asset.rest_depths[first + contact.sample] = std::max(asset.rest_depths[first + contact.sample], depth);
     } else {
       std::vector<float>& depths = overlaps[{contact.row, asset.sections[contact.other_section].muscle}];
       depths.resize(count, 0.0f);
-      depths[contact.vertex] = std::max(depths[contact.vertex], depth);
+      depths[contact.sample] = std::max(depths[contact.sample], depth);
     }
   }
   for (const auto& [pair, depths] : overlaps) {
@@ -274,7 +319,7 @@ std::shared_ptr<const CollisionAsset> build_collision_asset(std::shared_ptr<cons
 
 std::size_t heap_bytes(const CollisionAsset& asset) {
   const auto bytes = [](const auto&... arrays) { return (std::size_t{0} + ... + (arrays.capacity() * sizeof(arrays[0]))); };
-  return bytes(asset.first_section, asset.sections, asset.first_row, asset.rows, asset.rest_line, asset.rest_belly,
+  return bytes(asset.first_section, asset.sections, asset.first_row, asset.rows, asset.samples, asset.rest_line, asset.rest_belly,
                asset.bones, asset.fields, asset.row_touches_bone, asset.row_bone_depths, asset.muscles_touch,
                asset.first_overlap, asset.overlaps, asset.rest_depths, asset.transversals);
 }

@@ -3,8 +3,8 @@
 // shared by all characters of an asset; `build_collision_asset` makes it.
 //
 // Sections are numbered muscle after muscle (`first_section`), rows of samples likewise (`first_row`). A row lies on a
-// section (weight 0) or between two, and has a sample on each of its |C| meridians: on the drawn surface's edges.
-// Rows nearer to a muscle's end than to the section beside it have no samples: muscles grow out of bones there.
+// section (weight 0) or between two; its samples lie on the drawn triangles, on each of the |C| meridians and, where
+// these are far apart, between them. Rows nearer to a muscle's end than to the section beside it have no samples: muscles grow out of bones there.
 #pragma once
 
 #include <cstdint>
@@ -34,13 +34,31 @@ struct CollisionSection {
 struct SampleRow {
   std::uint32_t section = 0;       // number of the section at or before it
   float weight = 0.0f;             // 0 at that section, towards 1 at the next
-  std::uint32_t first_sample = 0;  // |C| samples
+  std::uint32_t first_sample = 0, sample_count = 0;
 };
+
+// A place in a row: from meridian `vertex` towards the next.
+struct SurfaceSample {
+  std::uint16_t vertex = 0;
+  std::uint16_t fraction = 0;  // of 65536
+};
+inline constexpr float kSampleFraction = 1.0f / 65536.0f;
+inline constexpr std::uint32_t kMaxRowSamples = 512;
+
+// How a sample hangs on the vertices (section, vertex), (section, vertex + 1), (section + 1, vertex),
+// (section + 1, vertex + 1): weights of the drawn triangle that it lies in, whose diagonal joins the first and last.
+struct SampleWeights {
+  float of[4];
+};
+inline SampleWeights sample_weights(float along, float around) {
+  if (around >= along) return {{1.0f - around, around - along, 0.0f, along}};
+  return {{1.0f - along, 0.0f, along - around, around}};
+}
 
 // Overlaps at rest of a row's samples with another muscle: these depths are allowed.
 struct RestOverlap {
   std::uint32_t other = 0;         // muscle
-  std::uint32_t first_depth = 0;   // |C| depths, m, in CollisionAsset::rest_depths
+  std::uint32_t first_depth = 0;   // a depth a sample of the row, m, in CollisionAsset::rest_depths
 };
 
 // A tag at this level of detail.
@@ -57,6 +75,7 @@ struct Transversal {
 };
 
 inline constexpr std::uint32_t kNoDepths = 0xffffffffu;
+inline constexpr float kNeverTouches = 3.0e38f;
 
 struct CollisionAsset {
   std::shared_ptr<const MuscleAsset> muscles;
@@ -64,14 +83,15 @@ struct CollisionAsset {
   std::vector<CollisionSection> sections;
   std::vector<std::uint32_t> first_row;            // by muscle, and one more
   std::vector<SampleRow> rows;
-  std::uint32_t sample_count = 0;
+  std::vector<SurfaceSample> samples;              // row after row
   std::vector<float> rest_line;                    // m, by muscle: length of the drawn line at rest
   std::vector<float> rest_belly;                   // m, by muscle: of its part that is no tendon
 
   std::vector<std::int32_t> bones;                 // those that have a field
   std::vector<std::shared_ptr<const BoneField>> fields;  // of `bones`
   std::vector<std::uint8_t> row_touches_bone;      // row * bones + place in `bones`: 1
-  std::vector<std::uint32_t> row_bone_depths;      // likewise: first of |C| depths in rest_depths, or kNoDepths
+  std::vector<std::uint32_t> row_bone_depths;      // likewise: the first of the row's depths in rest_depths, or kNoDepths
+  std::vector<float> centre_bone_depths;           // section * bones + place: m, how deep a_k is at rest
   std::vector<std::uint8_t> muscles_touch;         // muscle * muscles + other: 1
   std::vector<std::uint32_t> first_overlap;        // by row, and one more
   std::vector<RestOverlap> overlaps;               // by row, others in order

@@ -58,8 +58,8 @@ enum class CollisionMode {
 struct CollisionSettings {
   bool enabled = true;
   CollisionMode mode = CollisionMode::kReduced;
-  std::uint32_t substeps = 2;         // of a step of the simulation, 1..32
-  std::uint32_t iterations = 4;       // over all constraints in a substep, 1..64
+  std::uint32_t substeps = 4;         // of a step of the simulation, 1..32
+  std::uint32_t iterations = 3;       // over all constraints in a substep, 1..64
   float shape_time = 0.06f;           // s, radii to the rest shape
   float line_time = 0.06f;            // s, a_k to where the bones carry it
   float via_time = 0.02f;             // s, the same for the sections at via points

@@ -1,5 +1,6 @@
 #include "modules/muscle/kernels/collision/bone_contacts.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <glm/common.hpp>
@@ -7,10 +8,13 @@
 #include <glm/mat3x3.hpp>
 
 #include "modules/muscle/kernels/collision/contact_rows.hpp"
-#include "modules/muscle/kernels/kernel_data.hpp"
 
 namespace fascicle::muscle {
 namespace {
+
+// A sample whose own surface looks along the way out of the bone, rather than against it, has come through to the far
+// side: it goes back the way it came, along its radius, not out of the back.
+constexpr float kThrough = 0.3f;
 
 bool overlap(const Bounds& a, const Bounds& b) {
   return glm::all(glm::lessThanEqual(a.lower, b.upper)) && glm::all(glm::lessThanEqual(b.lower, a.upper));
@@ -38,8 +42,8 @@ class BoneTest {
     const std::uint32_t depths = asset_.row_bone_depths[r * asset_.bones.size() + place_];
     if (field_.distance(to_bone(0.5f * (box.lower + box.upper))) > radius + margin_ + reach_) return;
     const SampleRow& row = asset_.rows[r];
-    const std::uint32_t count = asset_.sections[row.section].count;
-    std::array<float, kMaxSectionVertices> x, y, z, distance;
+    const std::uint32_t count = row.sample_count;
+    std::array<float, kMaxRowSamples> x, y, z, distance;
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t s = row.first_sample + i;
       const glm::vec3 p = to_bone(glm::vec3(work_.sample_x[s], work_.sample_y[s], work_.sample_z[s]));
@@ -47,7 +51,7 @@ class BoneTest {
       y[i] = p.y;
       z[i] = p.z;
     }
-    const auto part = [&](std::array<float, kMaxSectionVertices>& all) { return std::span(all).first(count); };
+    const auto part = [&](std::array<float, kMaxRowSamples>& all) { return std::span(all).first(count); };
     field_.distances(part(x), part(y), part(z), part(distance));
     for (std::uint32_t i = 0; i < count; ++i) {
       const float allowed = depths == kNoDepths ? 0.0f : asset_.rest_depths[depths + i];
@@ -65,6 +69,8 @@ class BoneTest {
     Contact contact;
     contact.bone = static_cast<std::int32_t>(place_);
     contact.normal = turn_ * value.gradient;
+    const glm::vec3 outward = sample_direction(asset_, work_, r, i);
+    if (value.distance + allowed < 0.0f && glm::dot(contact.normal, outward) > kThrough) contact.normal = -outward;
     if (!carry_sample(asset_, work_, r, i, contact)) return;
     contact.found = value.distance + allowed - margin_;
     contact.base = glm::dot(contact.normal, contact.place) - contact.found;
@@ -80,6 +86,29 @@ class BoneTest {
   CollisionWork& work_;
 };
 
+// A centre in a bone would have its section grow around the bone: it has to come out as a whole.
+void test_centres(const CollisionAsset& asset, std::size_t place, const glm::mat4& bone, float margin, float reach,
+                  std::uint32_t m, CollisionWork& work) {
+  for (std::uint32_t s = asset.first_section[m]; s < asset.first_section[m + 1]; ++s) {
+    if (work.mobility[s] == 0.0f) continue;
+    const float allowed = asset.centre_bone_depths[s * asset.bones.size() + place];
+    if (allowed == kNeverTouches) continue;
+    const FieldValue value = asset.fields[place]->at((work.a[s] - glm::vec3(bone[3])) * glm::mat3(bone));
+    Contact contact;
+    contact.found = value.distance + allowed - margin;
+    if (contact.found > reach || value.gradient == glm::vec3(0.0f)) continue;
+    contact.bone = static_cast<std::int32_t>(place);
+    contact.normal = glm::mat3(bone) * value.gradient;
+    contact.place = work.a[s];
+    contact.section = s;
+    contact.weight[0] = 1.0f;
+    std::fill_n(contact.radius, 4, asset.sections[s].first_radius);
+    contact.row = kCentreRow;
+    contact.base = glm::dot(contact.normal, contact.place) - contact.found;
+    add_contact(contact, work);
+  }
+}
+
 }  // namespace
 
 void find_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> bones, float margin, float reach,
@@ -94,6 +123,7 @@ void find_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> 
         if (asset.row_touches_bone[r * asset.bones.size() + place] == 0 || !overlap(work.row_boxes[r], box)) continue;
         bone_test.test(r);
       }
+      test_centres(asset, place, bone, margin, reach, static_cast<std::uint32_t>(m), work);
     }
   }
 }

@@ -14,6 +14,8 @@ namespace fascicle::muscle {
 
 struct CollisionAsset;
 
+inline constexpr std::uint32_t kCentreRow = 0xffffffffu;  // a contact of a section's centre
+
 // A sample of a surface that may not get deeper into a bone or another muscle: C = n . (c - q) - base >= 0, linear in
 // the centres and radii that carry the sample c and, of another muscle, the point q of its outline.
 struct Contact {
@@ -21,8 +23,8 @@ struct Contact {
   float base = 0.0f;                   // m
   std::uint32_t section = 0;           // the sample lies between this section and the next
   float weight[2] = {};                // of the two sections
-  std::uint32_t radius[2] = {};        // of the sample's meridian, in each
-  float lever[2] = {};                 // dC/dr
+  std::uint32_t radius[4] = {};        // of the vertices that it hangs on, two of each
+  float lever[4] = {};                 // dC/dr
   std::int32_t bone = -1;              // >= 0: place in CollisionAsset::bones; else another muscle's:
   std::uint32_t other_section = 0;     // before q
   float other_weight[2] = {};
@@ -31,7 +33,7 @@ struct Contact {
   float inverse_mass = 0.0f;           // of the constraint: 1 / (sum of w |dC|^2)
   float found = 0.0f;                  // m: C where it was found; negative: too deep
   float push = 0.0f;                   // what it has pushed in this solve (its multiplier), >= 0
-  std::uint32_t row = 0, vertex = 0;   // which sample
+  std::uint32_t row = 0, sample = 0;   // which: of the row
   glm::vec3 place{0.0f};               // m, world: of the sample where it was found
 };
 
@@ -49,6 +51,7 @@ struct CollisionWork {
 
   // By MuscleAsset::radius.
   AlignedVector<float> radii, wanted;                    // m; the wanted ones have the target area
+  AlignedVector<float> least, most;                      // m
   AlignedVector<float> dir_x, dir_y, dir_z;              // unit, from a_k to the vertex
   AlignedVector<float> vertex_x, vertex_y, vertex_z;     // m, world
   std::vector<std::uint8_t> pressed;                     // 1: a contact holds the radius

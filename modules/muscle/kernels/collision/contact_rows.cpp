@@ -5,6 +5,8 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr float kMostPush = 0.0015f;  // m, of a contact in a substep
+
 glm::vec3 direction(const CollisionWork& work, std::uint32_t radius) {
   return glm::vec3(work.dir_x[radius], work.dir_y[radius], work.dir_z[radius]);
 }
@@ -16,23 +18,40 @@ float radius_mobility(const CollisionWork& work, std::uint32_t section) {
 
 }  // namespace
 
-bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row, std::uint32_t vertex,
+glm::vec3 sample_direction(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row,
+                           std::uint32_t sample) {
+  const SampleRow& r = asset.rows[row];
+  const std::uint32_t section = r.weight < 0.5f ? r.section : r.section + 1;
+  const SurfaceSample& s = asset.samples[r.first_sample + sample];
+  const std::uint32_t count = asset.sections[section].count;
+  const std::uint32_t vertex = s.fraction < 32768 ? s.vertex : (s.vertex + 1u == count ? 0u : s.vertex + 1u);
+  const std::uint32_t radius = asset.sections[section].first_radius + vertex;
+  return (work.radii[radius] < 0.0f ? -1.0f : 1.0f) * direction(work, radius);
+}
+
+bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row, std::uint32_t sample,
                   Contact& contact) {
-  const SampleRow& sample = asset.rows[row];
-  const std::uint32_t s = sample.first_sample + vertex;
+  const SampleRow& r = asset.rows[row];
+  const std::uint32_t place = r.first_sample + sample;
   contact.row = row;
-  contact.vertex = vertex;
-  contact.place = glm::vec3(work.sample_x[s], work.sample_y[s], work.sample_z[s]);
-  contact.section = sample.section;
-  contact.weight[0] = 1.0f - sample.weight;
-  contact.weight[1] = sample.weight;
-  const std::uint32_t ends = sample.weight > 0.0f ? 2 : 1;
+  contact.sample = sample;
+  contact.place = glm::vec3(work.sample_x[place], work.sample_y[place], work.sample_z[place]);
+  contact.section = r.section;
+  const SurfaceSample& s = asset.samples[place];
+  const SampleWeights weights = sample_weights(r.weight, kSampleFraction * static_cast<float>(s.fraction));
+  const std::uint32_t count = asset.sections[r.section].count;
+  const std::uint32_t next = s.vertex + 1u == count ? 0u : s.vertex + 1u;
   bool moves = false;
   for (std::uint32_t k = 0; k < 2; ++k) {
     // A sample on a section names that section twice, the second time with no weight.
-    const std::uint32_t section = sample.section + (k < ends ? k : 0);
-    contact.radius[k] = asset.sections[section].first_radius + vertex;
-    contact.lever[k] = contact.weight[k] * glm::dot(contact.normal, direction(work, contact.radius[k]));
+    const std::uint32_t section = r.section + (r.weight > 0.0f ? k : 0);
+    const std::uint32_t first = asset.sections[section].first_radius;
+    contact.weight[k] = weights.of[2 * k] + weights.of[2 * k + 1];
+    for (std::uint32_t j = 0; j < 2; ++j) {
+      const std::uint32_t radius = first + (j == 0 ? s.vertex : next);
+      contact.radius[2 * k + j] = radius;
+      contact.lever[2 * k + j] = weights.of[2 * k + j] * glm::dot(contact.normal, direction(work, radius));
+    }
     moves = moves || (contact.weight[k] > 0.0f && work.mobility[section] > 0.0f);
   }
   return moves || contact.bone < 0;
@@ -61,8 +80,10 @@ void add_contact(Contact& contact, CollisionWork& work) {
   for (std::uint32_t k = 0; k < 2; ++k) {
     if (contact.weight[k] == 0.0f) continue;
     const std::uint32_t section = contact.section + k;
-    sum += work.mobility[section] * contact.weight[k] * contact.weight[k] +
-           radius_mobility(work, section) * contact.lever[k] * contact.lever[k];
+    sum += work.mobility[section] * contact.weight[k] * contact.weight[k];
+    for (std::uint32_t j = 2 * k; j < 2 * k + 2; ++j) {
+      sum += radius_mobility(work, section) * contact.lever[j] * contact.lever[j];
+    }
   }
   if (contact.bone < 0) {
     for (std::uint32_t k = 0; k < 2; ++k) {
@@ -75,6 +96,8 @@ void add_contact(Contact& contact, CollisionWork& work) {
   }
   if (!(sum > 1.0e-6f)) return;
   contact.inverse_mass = 1.0f / sum;
+  // What is deeper comes out over several substeps: contacts know no more than their neighbourhood.
+  if (contact.found < -kMostPush) contact.base += contact.found + kMostPush;
   if (work.contacts.size() == work.contacts.capacity()) {
     work.overflow = true;
     return;

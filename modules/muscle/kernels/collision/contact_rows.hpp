@@ -6,9 +6,13 @@
 
 namespace fascicle::muscle {
 
+// The way a sample's surface looks: about its radius' direction (unit).
+glm::vec3 sample_direction(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row,
+                           std::uint32_t sample);
+
 // Fills the sample's part of a contact with its normal set: place, sections, weights, levers. False where nothing that
 // carries it can move.
-bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row, std::uint32_t vertex,
+bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row, std::uint32_t sample,
                   Contact& contact);
 
 // The other muscle's part: the point on edge (edge, edge + 1), at `fraction` along it, `along` between the sections.

@@ -64,11 +64,10 @@ class MuscleTest {
     if (asset_.muscles_touch[muscle * asset_.muscles->size() + other] == 0) return;
     if (!overlap(work_.row_boxes[r], work_.segment_boxes[segment], margin_ + reach_)) return;
     const SampleRow& row = asset_.rows[r];
-    const std::uint32_t count = asset_.sections[row.section].count;
     const glm::vec3 a0 = work_.a[segment], a1 = work_.a[segment + 1];
     const glm::vec3 t0 = work_.t[segment], t1 = work_.t[segment + 1];
     const float widest = std::max(work_.widest[segment], work_.widest[segment + 1]) + margin_ + reach_;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < row.sample_count; ++i) {
       const std::uint32_t s = row.first_sample + i;
       const glm::vec3 p(work_.sample_x[s], work_.sample_y[s], work_.sample_z[s]);
       const float before = glm::dot(p - a0, t0), behind = glm::dot(p - a1, t1);
@@ -93,10 +92,8 @@ class MuscleTest {
       outline.u[k] = work_.u[segment + k];
       outline.v[k] = work_.v[segment + k];
     }
-    const std::uint32_t radius = asset_.sections[asset_.rows[r].section].first_radius + i;
-    const glm::vec3 outward(work_.dir_x[radius], work_.dir_y[radius], work_.dir_z[radius]);
     OutlinePoint point;
-    if (!find_outline_point(outline, along, p, outward, margin_ + reach_, point)) return;
+    if (!find_outline_point(outline, along, p, sample_direction(asset_, work_, r, i), margin_ + reach_, point)) return;
     const float allowed = allowed_depth(r, i, other);
     const float value = point.distance + allowed - margin_;
     if (value > reach_) return;

@@ -75,19 +75,20 @@ void place_samples(const CollisionAsset& asset, CollisionWork& work) {
     float* y = &work.sample_y[row.first_sample];
     float* z = &work.sample_z[row.first_sample];
     const std::uint32_t from = section.first_radius;
-    if (row.weight == 0.0f) {
-      std::copy_n(&work.vertex_x[from], section.count, x);
-      std::copy_n(&work.vertex_y[from], section.count, y);
-      std::copy_n(&work.vertex_z[from], section.count, z);
-    } else {
-      const std::uint32_t to = asset.sections[row.section + 1].first_radius;
-      for (std::uint32_t i = 0; i < section.count; ++i) {
-        x[i] = work.vertex_x[from + i] + row.weight * (work.vertex_x[to + i] - work.vertex_x[from + i]);
-        y[i] = work.vertex_y[from + i] + row.weight * (work.vertex_y[to + i] - work.vertex_y[from + i]);
-        z[i] = work.vertex_z[from + i] + row.weight * (work.vertex_z[to + i] - work.vertex_z[from + i]);
-      }
+    const std::uint32_t to = row.weight > 0.0f ? asset.sections[row.section + 1].first_radius : from;
+    for (std::uint32_t i = 0; i < row.sample_count; ++i) {
+      const SurfaceSample& sample = asset.samples[row.first_sample + i];
+      const SampleWeights w = sample_weights(row.weight, kSampleFraction * static_cast<float>(sample.fraction));
+      const std::uint32_t here = sample.vertex, next = here + 1 == section.count ? 0 : here + 1;
+      const std::uint32_t at[4] = {from + here, from + next, to + here, to + next};
+      const auto mix = [&](const AlignedVector<float>& c) {
+        return w.of[0] * c[at[0]] + w.of[1] * c[at[1]] + w.of[2] * c[at[2]] + w.of[3] * c[at[3]];
+      };
+      x[i] = mix(work.vertex_x);
+      y[i] = mix(work.vertex_y);
+      z[i] = mix(work.vertex_z);
     }
-    work.row_boxes[r] = bounds_of(x, y, z, section.count);
+    work.row_boxes[r] = bounds_of(x, y, z, row.sample_count);
   }
 }
 

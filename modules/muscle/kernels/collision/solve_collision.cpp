@@ -24,6 +24,12 @@ constexpr float kLargestInflation = 1.25f;  // in one round
 // How much of the way to its goal something with a time constant goes in a substep: implicit Euler, so never too far.
 float approach(float step, float time) { return step / (step + std::max(time, 1.0e-4f)); }
 
+// Within what it may be: neither turned inside out nor drawn out into a spike. What a contact cannot get from it, the
+// centre has to give.
+void move_radius(std::uint32_t i, float by, CollisionWork& work) {
+  work.radii[i] = std::clamp(work.radii[i] + by, work.least[i], work.most[i]);
+}
+
 void move_sample(const Contact& contact, float push, CollisionWork& work) {
   for (std::uint32_t k = 0; k < 2; ++k) {
     if (contact.weight[k] == 0.0f) continue;
@@ -31,7 +37,7 @@ void move_sample(const Contact& contact, float push, CollisionWork& work) {
     const float mobility = work.mobility[section];
     if (mobility == 0.0f) continue;
     work.a[section] += (mobility * contact.weight[k] * push) * contact.normal;
-    work.radii[contact.radius[k]] += contact.lever[k] * push;
+    for (std::uint32_t j = 2 * k; j < 2 * k + 2; ++j) move_radius(contact.radius[j], contact.lever[j] * push, work);
   }
   if (contact.bone >= 0) return;
   for (std::uint32_t k = 0; k < 2; ++k) {
@@ -40,14 +46,14 @@ void move_sample(const Contact& contact, float push, CollisionWork& work) {
     if (mobility == 0.0f) continue;
     work.a[section] -= (mobility * contact.other_weight[k] * push) * contact.normal;
     for (std::uint32_t j = 2 * k; j < 2 * k + 2; ++j) {
-      work.radii[contact.other_radius[j]] += contact.other_lever[j] * push;
+      move_radius(contact.other_radius[j], contact.other_lever[j] * push, work);
     }
   }
 }
 
 void hold_radii(const Contact& contact, CollisionWork& work) {
-  for (std::uint32_t k = 0; k < 2; ++k) {
-    if (std::abs(contact.lever[k]) > kHoldingLever) work.pressed[contact.radius[k]] = 1;
+  for (std::uint32_t j = 0; j < 4; ++j) {
+    if (std::abs(contact.lever[j]) > kHoldingLever) work.pressed[contact.radius[j]] = 1;
   }
   if (contact.bone >= 0) return;
   for (std::uint32_t j = 0; j < 4; ++j) {
@@ -60,9 +66,8 @@ void hold_radii(const Contact& contact, CollisionWork& work) {
 float contact_value(const Contact& contact, const CollisionWork& work) {
   const std::uint32_t s = contact.section, next = contact.weight[1] > 0.0f ? s + 1 : s;
   float value = contact.weight[0] * glm::dot(contact.normal, work.a[s]) +
-                contact.weight[1] * glm::dot(contact.normal, work.a[next]) +
-                contact.lever[0] * work.radii[contact.radius[0]] + contact.lever[1] * work.radii[contact.radius[1]] -
-                contact.base;
+                contact.weight[1] * glm::dot(contact.normal, work.a[next]) - contact.base;
+  for (std::uint32_t j = 0; j < 4; ++j) value += contact.lever[j] * work.radii[contact.radius[j]];
   if (contact.bone >= 0) return value;
   const std::uint32_t o = contact.other_section;
   value -= contact.other_weight[0] * glm::dot(contact.normal, work.a[o]) +

@@ -4,6 +4,7 @@
 
 #include "engine/ecs/each_in_parallel.hpp"
 #include "modules/muscle/kernels/inflate_section.hpp"
+#include "modules/muscle/systems/4_solve/carry_deformation.hpp"
 #include "modules/muscle/systems/kernel_jobs.hpp"
 
 namespace fascicle::muscle {
@@ -55,7 +56,10 @@ void solve_as_legacy(ecs::View<const Musculature, LegacyCollision, MuscleCollisi
     const ScopedCost cost(costs.row(entity), ScopedCost::kWhole);
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
     const bool wanted = collision.settings.enabled && collision.settings.mode == CollisionMode::kLegacy;
-    if (!wanted || collision.asset == nullptr || !has_bones(*musculature.asset, bones)) return;
+    if (!wanted || !has_bones(*musculature.asset, bones)) return;
+    carry_deformation(musculature, collision);
+    if (collision.asset == nullptr) return;
+    displace_lines(collision, bones->world, lines);
     const auto level = std::find_if(collision.levels.begin(), collision.levels.end(),
                                     [&](const auto& asset) { return asset.get() == collision.asset; });
     const auto index = static_cast<std::size_t>(level - collision.levels.begin());

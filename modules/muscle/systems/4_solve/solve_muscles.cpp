@@ -10,6 +10,7 @@
 #include "modules/muscle/asset/collision/collision_asset.hpp"
 #include "modules/muscle/kernels/collision/solve_collision.hpp"
 #include "modules/muscle/kernels/inflate_section.hpp"
+#include "modules/muscle/systems/4_solve/carry_deformation.hpp"
 #include "modules/muscle/systems/4_solve/report_contacts.hpp"
 #include "modules/muscle/systems/kernel_jobs.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 
 constexpr float kLineMass = 1.0f;            // of a_k, in the masses of its radii together
 constexpr float kLeastBelly = 0.4f, kMostBelly = 2.5f;  // of its length at rest, for the volume
+constexpr float kLeastRadius = 0.15f, kMostRadius = 2.5f;  // of a radius at rest, in a solve
+constexpr float kRoom = 0.5f;                // and of its section's mean radius on top
 constexpr float kLargestOffset = 0.5f;       // of the muscle's length at rest: beyond, the solve has diverged
 constexpr float kLargestStretch = 8.0f;      // of a radius, by its section's largest at rest
 
@@ -27,8 +30,7 @@ glm::vec3 at(const AlignedVector<float>& x, const AlignedVector<float>& y, const
 }
 
 // What a section's area is held at: belly keeps its volume as its length changes, tendon its area.
-float area_target(const CollisionAsset& asset, const CollisionSection& section, float belly_ratio, float rest_area) {
-  (void)asset;
+float area_target(const CollisionSection& section, float belly_ratio, float rest_area) {
   return rest_area * (1.0f + section.belly * (belly_ratio - 1.0f));
 }
 
@@ -53,9 +55,9 @@ void load(const Musculature& musculature, const MuscleCollision& collision, cons
       const CollisionSection& section = asset.sections[s];
       const std::uint32_t slot = section.slot;
       work.a[s] = work.driven[s] = at(lines.x, lines.y, lines.z, slot);
-      if (!section.end && !held) {
-        work.driven[s] -= glm::mat3(bones.world[section.bone]) *
-                          at(collision.offset_x, collision.offset_y, collision.offset_z, slot);
+      if (!section.end && !held) {  // a held muscle kept its line as it was drawn
+        work.a[s] += glm::mat3(bones.world[section.bone]) *
+                     at(collision.offset_x, collision.offset_y, collision.offset_z, slot);
       }
       work.u[s] = at(sections.ux, sections.uy, sections.uz, slot);
       work.v[s] = at(sections.vx, sections.vy, sections.vz, slot);
@@ -63,10 +65,16 @@ void load(const Musculature& musculature, const MuscleCollision& collision, cons
       work.mobility[s] = section.end || held ? 0.0f : 1.0f / (kLineMass * static_cast<float>(section.count));
       const float* rest = &collision.rest_radii[section.first_radius];
       const float rest_area = section_area(std::span(rest, section.count));
-      const float target = section.end ? rest_area : area_target(asset, section, ratio, rest_area);
+      const float target = section.end ? rest_area : area_target(section, ratio, rest_area);
       work.area_target[s] = target;
       const float scale = rest_area > 0.0f ? std::sqrt(target / rest_area) : 1.0f;
-      for (std::uint32_t i = 0; i < section.count; ++i) work.wanted[section.first_radius + i] = scale * rest[i];
+      const float room = kRoom * std::sqrt(target / 3.14159265f);
+      for (std::uint32_t i = 0; i < section.count; ++i) {
+        const float wanted = scale * rest[i];
+        work.wanted[section.first_radius + i] = wanted;
+        work.least[section.first_radius + i] = std::min(kLeastRadius * wanted, kMostRadius * wanted);
+        work.most[section.first_radius + i] = std::max(kLeastRadius * wanted, kMostRadius * wanted) + room;
+      }
     }
   }
 }
@@ -120,11 +128,10 @@ void store(const CollisionWork& work, const BoneMatrices& bones, MuscleCollision
 }
 
 // Settings that no longer ask for collision: the shape at rest, once.
-void release(const Musculature& musculature, MuscleCollision& collision, CrossSections& sections) {
+void release(MuscleCollision& collision, CrossSections& sections) {
   if (collision.asset == nullptr) return;
   if (sections.radii.size() == collision.rest_radii.size()) sections.radii = collision.rest_radii;
   collision.asset = nullptr;
-  (void)musculature;
 }
 
 }  // namespace
@@ -137,8 +144,10 @@ void solve_muscles(ecs::View<const Musculature, MuscleCollision, MuscleContacts,
                          MuscleContacts& contacts, ActionLines& lines, CrossSections& sections) {
     const ScopedCost cost(costs.row(entity), ScopedCost::kWhole);
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
-    if (!collision.settings.enabled) return release(musculature, collision, sections);
-    if (collision.asset == nullptr || !has_bones(*musculature.asset, bones)) return;
+    if (!collision.settings.enabled) return release(collision, sections);
+    if (collision.settings.mode == CollisionMode::kLegacy || !has_bones(*musculature.asset, bones)) return;
+    carry_deformation(musculature, collision);
+    if (collision.asset == nullptr) return;
     const CollisionScratch::Loan loan(*scratch);
     CollisionWork& work = *loan;
     const CollisionAsset& asset = *collision.asset;

@@ -1,15 +1,14 @@
-#include "modules/muscle/systems/1_drive/carry_deformation.hpp"
+#include "modules/muscle/systems/4_solve/carry_deformation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
-#include "engine/ecs/each_in_parallel.hpp"
 #include "modules/muscle/asset/collision/collision_asset.hpp"
 #include "modules/muscle/components/lay_out_state.hpp"
-#include "modules/muscle/systems/kernel_jobs.hpp"
+#include "modules/muscle/asset/muscle_asset.hpp"
+#include "modules/muscle/asset/muscle_levels.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -104,27 +103,22 @@ void morph_rest_radii(const Musculature& musculature, MuscleCollision& collision
 
 }  // namespace
 
-void carry_deformation(ecs::View<const Musculature, MuscleCollision, ActionLines> musculatures,
-                       ecs::View<const BoneMatrices> characters) {
-  const auto carry = [&](const Musculature& musculature, MuscleCollision& collision, ActionLines& lines) {
-    const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
-    if (!collision.settings.enabled || !has_bones(*musculature.asset, bones)) return;
-    take_over_level(musculature, collision);
-    if (collision.asset == nullptr) return;
-    morph_rest_radii(musculature, collision);
-    for (const CollisionSection& section : collision.asset->sections) {
-      // A held muscle kept its line as it was drawn.
-      if (section.end || (lines.any_held && lines.held[section.muscle] != 0)) continue;
-      const std::uint32_t slot = section.slot;
-      const glm::vec3 offset = glm::mat3(bones->world[section.bone]) * glm::vec3(collision.offset_x[slot],
-                                                                                 collision.offset_y[slot],
-                                                                                 collision.offset_z[slot]);
-      lines.x[slot] += offset.x;
-      lines.y[slot] += offset.y;
-      lines.z[slot] += offset.z;
-    }
-  };
-  ecs::each_in_parallel(musculatures, kMusculaturesPerChunk, carry);
+void carry_deformation(const Musculature& musculature, MuscleCollision& collision) {
+  take_over_level(musculature, collision);
+  if (collision.asset != nullptr) morph_rest_radii(musculature, collision);
+}
+
+void displace_lines(const MuscleCollision& collision, std::span<const glm::mat4> bones, ActionLines& lines) {
+  for (const CollisionSection& section : collision.asset->sections) {
+    // A held muscle kept its line as it was drawn.
+    if (section.end || (lines.any_held && lines.held[section.muscle] != 0)) continue;
+    const std::uint32_t slot = section.slot;
+    const glm::vec3 kept(collision.offset_x[slot], collision.offset_y[slot], collision.offset_z[slot]);
+    const glm::vec3 offset = glm::mat3(bones[section.bone]) * kept;
+    lines.x[slot] += offset.x;
+    lines.y[slot] += offset.y;
+    lines.z[slot] += offset.z;
+  }
 }
 
 }  // namespace fascicle::muscle
