@@ -10,11 +10,10 @@
 
 #include "engine/animation/clip.hpp"
 #include "engine/animation/motion.hpp"
-#include "engine/animation/skeleton.hpp"
 #include "engine/content/closest_name.hpp"
 #include "engine/content/file_text.hpp"
-#include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/content/find_content.hpp"
+#include "tools/fascicle_cook/collide_report.hpp"
 #include "tools/fascicle_cook/collide_run.hpp"
 #include "tools/fascicle_cook/commands.hpp"
 #include "tools/fascicle_cook/find_character.hpp"
@@ -23,7 +22,6 @@ namespace fascicle::cook {
 namespace {
 
 namespace fs = std::filesystem;
-using muscle::PairDepth;
 
 struct Options {
   std::string source, clip, csv;
@@ -31,6 +29,7 @@ struct Options {
   std::uint64_t frames = 0, every = 1;
   double hz = 0.0, cycles = 10.0;
   int pairs = 0, threads = 0, level = -1;
+  bool json = false;
 };
 
 // The scene of that name or file, or one made for a character's file: its clip, on the spot.
@@ -93,98 +92,6 @@ std::uint64_t frames_of(const Options& options, const muscle::SceneAsset& scene)
       std::clamp(std::ceil(options.cycles * length / speed * static_cast<double>(scene.step_hz)), 1.0, 1e6));
 }
 
-std::string name_of(const CollideReport& report, const PairDepth& pair) {
-  if (!(pair.depth > 0.0f)) return "-";
-  const std::string other = pair.bone >= 0
-                                ? report.character->skeleton->names[static_cast<std::size_t>(pair.bone)]
-                                : report.asset->muscles[pair.other].name;
-  return report.asset->muscles[pair.muscle].name + " in " + other;
-}
-
-double mm(float metres) { return 1e3 * static_cast<double>(metres); }
-
-// The frame of a run's worst, of those that count.
-template <class F>
-const CollideFrame* worst(const CollideRun& run, std::uint64_t first, F value) {
-  const CollideFrame* found = nullptr;
-  for (const CollideFrame& frame : run.frames) {
-    if (frame.frame >= first && (found == nullptr || value(frame) > value(*found))) found = &frame;
-  }
-  return found;
-}
-
-constexpr const char* kRow = "{:<10}{:>8.2f}  {:<46}{:>8.2f}  {:<46}{:>7.2f}{:>8.2f}{:>9.2f}{:>8.2f}{:>8.2f}%{:>7}{:>7}{:>10.5f}\n";
-
-std::string to_table(const CollideReport& report, std::uint64_t first) {
-  std::string text = fmt::format("{:<10}{:>8}  {:<46}{:>8}  {:<46}{:>7}{:>8}{:>9}{:>8}{:>9}{:>7}{:>7}{:>10}\n", "mm",
-                                 "in bone", "deepest (frame)", "muscle", "deepest (frame)", "bone+", "by pair",
-                                 "muscle+", "by pair", "area", "fallb.", "held", "jitter");
-  const PairDepth rest_bone = deepest(report.rest.bones), rest_muscle = deepest(report.rest.muscles);
-  text += fmt::format(fmt::runtime(kRow), "rest", mm(rest_bone.depth), name_of(report, rest_bone),
-                      mm(rest_muscle.depth), name_of(report, rest_muscle), 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0);
-  for (const CollideRun& run : report.runs) {
-    const CollideFrame* bone = worst(run, first, [](const CollideFrame& f) { return f.bone.depth; });
-    if (bone == nullptr) continue;
-    const CollideFrame* other = worst(run, first, [](const CollideFrame& f) { return f.muscle.depth; });
-    const auto most = [&](auto value) { return value(*worst(run, first, value)); };
-    text += fmt::format(
-        fmt::runtime(kRow), to_string(run.mode), mm(bone->bone.depth),
-        fmt::format("{} ({})", name_of(report, bone->bone), bone->frame), mm(other->muscle.depth),
-        fmt::format("{} ({})", name_of(report, other->muscle), other->frame),
-        mm(most([](const CollideFrame& f) { return f.beyond.bone; })),
-        mm(most([](const CollideFrame& f) { return f.beyond.bone_pair; })),
-        mm(most([](const CollideFrame& f) { return f.beyond.muscle; })),
-        mm(most([](const CollideFrame& f) { return f.beyond.muscle_pair; })),
-        100.0 * static_cast<double>(most([](const CollideFrame& f) { return f.area.relative; })),
-        run.frames.back().fallbacks, run.frames.back().held, 1e3 * run.jitter_rms);
-  }
-  for (const CollideRun& run : report.runs) {
-    text += fmt::format("{}: {} frames measured, {:.2f} ms a step, {:.1f} ms a measure", to_string(run.mode),
-                        run.frames.size(), run.step_ms, run.measure_ms);
-    if (run.unstable > 0) text += fmt::format(", NOT FINITE in {}", run.unstable);
-    const CollideFrame* area = worst(run, first, [](const CollideFrame& f) { return f.area.relative; });
-    if (area != nullptr && area->area.relative > 0.0f) {
-      text += fmt::format(", worst area {} section {} (frame {})", report.asset->muscles[area->area.muscle].name,
-                          area->area.section, area->frame);
-    }
-    text += '\n';
-  }
-  return text;
-}
-
-std::string pair_table(const CollideReport& report, const std::vector<CollidePair>& pairs, int count) {
-  std::string text = fmt::format("  {:<50}{:>8}{:>8}{:>8}{:>8}{:>10}{:>9}\n", "pair", "mm", "at rest", "beyond", "frame",
-                                 "fraction", "section");
-  for (const bool bones : {true, false}) {
-    int left = count;
-    for (const CollidePair& pair : pairs) {
-      if ((pair.deepest.bone >= 0) != bones) continue;
-      if (left-- <= 0) break;
-      const auto& layout = report.asset->muscles[pair.deepest.muscle];
-      text += fmt::format("  {:<50}{:>8.2f}{:>8.2f}{:>8.2f}{:>8}{:>10.3f}{:>6.1f}/{:<2}\n", name_of(report, pair.deepest),
-                          mm(pair.deepest.depth), mm(pair.rest), mm(pair.deepest.depth - pair.rest), pair.frame,
-                          pair.deepest.place / static_cast<float>(layout.section_count - 1), pair.deepest.place,
-                          layout.section_count - 1);
-    }
-  }
-  return text;
-}
-
-std::string to_csv(const CollideReport& report) {
-  std::string text =
-      "mode,frame,bone_deepest_mm,bone_pair,muscle_deepest_mm,muscle_pair,bone_max_mm,bone_pair_max_mm,muscle_max_mm,"
-      "muscle_pair_max_mm,section_area_error_max,fallbacks,held\n";
-  for (const CollideRun& run : report.runs) {
-    for (const CollideFrame& f : run.frames) {
-      text += fmt::format("{},{},{:.4f},{},{:.4f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.6f},{},{}\n", to_string(run.mode),
-                          f.frame, mm(f.bone.depth), name_of(report, f.bone), mm(f.muscle.depth),
-                          name_of(report, f.muscle), mm(f.beyond.bone), mm(f.beyond.bone_pair), mm(f.beyond.muscle),
-                          mm(f.beyond.muscle_pair), f.area.relative, f.fallbacks, f.held);
-    }
-  }
-  return text;
-}
-
 int collide(const Options& options) {
   const auto scene = load(options);
   if (scene == nullptr) return kErrors;
@@ -198,22 +105,11 @@ int collide(const Options& options) {
                      .workers = options.threads};
   if (options.level >= 0) run.level = static_cast<std::uint32_t>(options.level);
   const CollideReport report = run_collide(scene, modes, run);
-  fmt::print("{}: {} muscles, {} vertices, {} points every {:.0f} mm; {} frames at {:.0f} Hz, counted from frame {}\n\n",
-             scene->name, report.asset->size(), report.asset->vertex_count, report.rest.points,
-             mm(muscle::kSampleSpacing), run.frames, scene->step_hz, run.first);
-  fmt::print("{}", to_table(report, run.first));
-  if (options.pairs > 0) {
-    std::vector<CollidePair> rest;
-    for (const auto* list : {&report.rest.bones, &report.rest.muscles}) {
-      for (const PairDepth& pair : *list) rest.push_back({pair, 0, 0.0f});
-    }
-    std::stable_sort(rest.begin(), rest.end(), [](const CollidePair& a, const CollidePair& b) {
-      return a.deepest.depth > b.deepest.depth;
-    });
-    fmt::print("\nrest\n{}", pair_table(report, rest, options.pairs));
-    for (const CollideRun& mode : report.runs) {
-      fmt::print("\n{}\n{}", to_string(mode.mode), pair_table(report, mode.pairs, options.pairs));
-    }
+  if (options.json) {
+    fmt::print("{}", to_json(report));
+  } else {
+    fmt::print("{}\n", to_table(report));
+    if (options.pairs > 0) fmt::print("\n{}", to_pair_tables(report, static_cast<std::size_t>(options.pairs)));
   }
   if (options.csv.empty()) return kFine;
   const Diagnostics written = write_text_atomically(options.csv, to_csv(report));
@@ -243,6 +139,7 @@ void add_collide(CLI::App& program, Command& chosen) {
       ->expected(0, 1)
       ->default_str("20")
       ->check(CLI::Range(1, 10000));
+  command->add_flag("--json", options->json, "Print the figures as JSON in place of tables");
   command->add_option("--csv", options->csv, "Write the figures of every measured step to this file");
   command->add_option("--threads", options->threads, "Workers (one for each core)")->check(CLI::Range(0, 256));
   command->callback([options, &chosen] { chosen = [options] { return collide(*options); }; });

@@ -53,6 +53,9 @@ struct CollideRun {
 // The scene's first character, alone, in all modes that it has: without collision always, the others where its
 // musculature has collision.
 struct CollideReport {
+  std::string scene;
+  float step_hz = 0.0f;
+  CollideOptions options;
   std::shared_ptr<const muscle::MuscleAsset> asset;
   std::shared_ptr<const muscle::CharacterAsset> character;
   muscle::Penetration rest;
