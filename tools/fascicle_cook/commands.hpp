@@ -22,6 +22,8 @@ void add_import_osim(CLI::App& program, Command& chosen);
 void add_fit(CLI::App& program, Command& chosen);
 // constrain CHARACTER: tags for collision where muscles come close to each other and to bones.
 void add_constrain(CLI::App& program, Command& chosen);
+// fields CHARACTER [--rebuild] [--info]: the bones' fields, stored and measured.
+void add_fields(CLI::App& program, Command& chosen);
 // counts CHARACTER: sections and vertices at several levels of detail.
 void add_counts(CLI::App& program, Command& chosen);
 // slices CHARACTER|MESH...: the shapes of muscle meshes' cross sections.

@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
   cook::add_import_osim(program, chosen);
   cook::add_fit(program, chosen);
   cook::add_constrain(program, chosen);
+  cook::add_fields(program, chosen);
   cook::add_counts(program, chosen);
   cook::add_slices(program, chosen);
 #ifdef FASCICLE_COOK_PLAYS
