@@ -148,6 +148,16 @@ TEST_F(FascicleProgram, WritesStatisticsTraceReportAndHash) {
   EXPECT_EQ(report["metrics"]["held_steps"][24].asDouble(), 0.0);
   EXPECT_EQ(report["metrics"]["muscle.level_mean"].size(), 25u);
   EXPECT_GT(report["metrics"]["muscle.vertices"][24].asDouble(), 0.0);
+  // Measured on the drawn surfaces: muscles touch bones, and nothing is missing.
+  for (const char* name : {"penetration.bone_max_mm", "penetration.muscle_max_mm", "penetration.bone_pair_max_mm",
+                           "penetration.muscle_pair_max_mm", "section_area_error_max", "solve.fallbacks"}) {
+    ASSERT_EQ(report["metrics"][name].size(), 25u) << name;
+    EXPECT_TRUE(report["metrics"][name][24].isNumeric()) << name;
+    EXPECT_GE(report["metrics"][name][24].asDouble(), 0.0) << name;
+  }
+  EXPECT_GT(report["metrics"]["penetration.bone_deepest_mm"][24].asDouble(), 0.0);
+  EXPECT_GT(report["metrics"]["penetration.muscle_deepest_mm"][24].asDouble(), 0.0);
+  EXPECT_EQ(report["metrics"]["penetration.left_out"][24].asDouble(), 0.0);
 }
 
 TEST_F(FascicleProgram, DetailGivesRowsPerCharacterAndMuscle) {

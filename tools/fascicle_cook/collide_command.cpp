@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -22,6 +23,13 @@ namespace fascicle::cook {
 namespace {
 
 namespace fs = std::filesystem;
+
+// CLI::Range lets NaN through.
+CLI::Validator within(double lowest, double highest) {
+  return CLI::Range(lowest, highest) & CLI::Validator([](std::string& text) {
+           return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string() : "'" + text + "' is not finite";
+         }, "");
+}
 
 struct Options {
   std::string source, clip, csv;
@@ -128,8 +136,8 @@ void add_collide(CLI::App& program, Command& chosen) {
       ->required();
   command->add_option("--clip", options->clip, "This clip of the character");
   command->add_option("--frames", options->frames, "Steps (those of --cycles)");
-  command->add_option("--hz", options->hz, "Steps a second (the scene's)")->check(CLI::Range(1.0, 1000.0));
-  command->add_option("--cycles", options->cycles, "Lengths of the animation (10)")->check(CLI::Range(0.01, 1e4));
+  command->add_option("--hz", options->hz, "Steps a second (the scene's)")->check(within(1.0, 1000.0));
+  command->add_option("--cycles", options->cycles, "Lengths of the animation (10)")->check(within(0.01, 1e4));
   command->add_option("--every", options->every, "Measure one step in so many (1)")->check(CLI::Range(1, 1000000));
   command->add_option("--modes", options->modes, "Of: without, with, legacy (all that the character has)")
       ->delimiter(',')
