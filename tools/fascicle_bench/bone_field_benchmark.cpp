@@ -91,7 +91,7 @@ Points make_points(const BoneField& field, bool coherent, std::size_t count) {
     if (!coherent || i % 256 == 0) {
       for (int axis = 0; axis < 3; ++axis) {
         point[axis] = field.lower()[axis] + fraction() * (field.upper()[axis] - field.lower()[axis]);
-        step[axis] = 0.0002f * (fraction() - 0.5f);
+        step[axis] = 0.00005f * (fraction() - 0.5f);  // 256 stay within the band
       }
     }
     point += step;

@@ -3,20 +3,24 @@
 // neighbouring bricks repeat the samples of the face that they share, so a cell never straddles two bricks, and rows of
 // eight floats are aligned to half a cache line, so the eight corners lie in two to four lines. What repeating costs is
 // half as many samples again; what a sparse tree costs is a walk through its nodes for each lookup.
+//
+// In random order each of these loads misses the nearest cache, and whether a brick has samples can't be foreseen. So
+// many points are looked up in blocks: first all their cells, whose misses overlap, then all their samples.
 #include "modules/muscle/asset/collision/bone_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/geometry/finite.hpp"
-
 namespace fascicle::muscle {
 
 namespace {
+
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 constexpr std::uint32_t kFarBit = 0x80000000u;
 constexpr int kRow = kBrickSamples, kSlab = kBrickSamples * kBrickSamples;
@@ -61,9 +65,9 @@ std::vector<float> gaps_to_surface(const BoneSamples& field) {
 
 // The cell of samples that a point lies in.
 struct BoneField::Cell {
-  const float* corner = nullptr;     // its lowest sample; null where there are no samples
+  const float* corner = nullptr;       // its lowest sample
   float x = 0.0f, y = 0.0f, z = 0.0f;  // in the cell, 0 to 1
-  float bound = 0.0f;                  // m: of the brick, where there are no samples
+  float bound = 0.0f;                  // m: the brick's, above 0, where it has no samples; else 0
 };
 
 BoneField::BoneField(BoneSamples field)
@@ -79,6 +83,8 @@ BoneField::BoneField(BoneSamples field)
   }
   for (std::size_t b = 0; b < field.bricks.size(); ++b) table_[field.bricks[b]] = static_cast<std::uint32_t>(b);
   samples_ = std::move(field.samples);
+  samples_.shrink_to_fit();
+  if (samples_.empty()) extent_ = glm::vec3(-1.0f);
 }
 
 // False beyond all bricks, where comparisons are written so that points that are not finite end up too.
@@ -91,14 +97,13 @@ inline bool BoneField::find_cell(const glm::vec3& point, Cell& cell) const {
              cells_z = static_cast<std::int32_t>(z);
   const std::int32_t brick_x = cells_x / kBrickCells, brick_y = cells_y / kBrickCells, brick_z = cells_z / kBrickCells;
   const std::uint32_t place = table_[static_cast<std::uint32_t>((brick_x * count_.y + brick_y) * count_.z + brick_z)];
-  if ((place & kFarBit) != 0) {
-    cell.corner = nullptr;
-    cell.bound = std::bit_cast<float>(place & ~kFarBit);
-    return true;
-  }
   const std::int32_t local = (cells_x - brick_x * kBrickCells) * kSlab + (cells_y - brick_y * kBrickCells) * kRow +
                              (cells_z - brick_z * kBrickCells);
-  cell.corner = samples_.data() + place * kSamplesPerBrick + static_cast<std::uint32_t>(local);
+  const bool far = (place & kFarBit) != 0;
+  // Both are always set, so that nothing waits for the table here.
+  const std::size_t sample = std::size_t{place} * kSamplesPerBrick + static_cast<std::uint32_t>(local);
+  cell.corner = samples_.data() + (far ? 0 : sample);
+  cell.bound = std::bit_cast<float>(far ? place & ~kFarBit : 0u);
   cell.x = x - static_cast<float>(cells_x);
   cell.y = y - static_cast<float>(cells_y);
   cell.z = z - static_cast<float>(cells_z);
@@ -116,15 +121,16 @@ inline float BoneField::interpolate(const Cell& cell) const {
   const float distance = low + cell.x * (high - low);
   // Between samples a distance may lie below what is interpolated, by h^2 / 4d at most: its second derivatives add up
   // to no more than 2 / d. Beyond the band the answer is a bound, so that much is taken off, without a step.
-  return distance <= band_ ? distance : std::max(band_, distance - 0.25f * voxel_);
+  const float bounded = std::max(band_, distance - 0.25f * voxel_);
+  return distance <= band_ ? distance : bounded;
 }
 
-// A lower bound of the distance of a point that has no samples about it.
-float BoneField::far_distance(const glm::vec3& point, float bound) const {
+// A lower bound of the distance of a point beyond all bricks.
+float BoneField::far_distance(const glm::vec3& point) const {
   if (extent_.x < 0.0f || !is_finite(point)) return kNowhere;
   const glm::vec3 gap = glm::max(glm::max(lower_ - point, point - upper_), glm::vec3(0.0f));
   const float square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
-  return std::min(std::max(bound, std::sqrt(square) * 0.99999f), kNowhere);
+  return std::min(std::max(band_, std::sqrt(square) * 0.99999f), kNowhere);
 }
 
 glm::vec3 BoneField::away(const glm::vec3& point) const {
@@ -138,14 +144,14 @@ glm::vec3 BoneField::away(const glm::vec3& point) const {
 
 float BoneField::distance(const glm::vec3& point) const {
   Cell cell;
-  if (!find_cell(point, cell)) return far_distance(point, band_);
-  return cell.corner != nullptr ? interpolate(cell) : far_distance(point, cell.bound);
+  if (!find_cell(point, cell)) return far_distance(point);
+  return cell.bound > 0.0f ? cell.bound : interpolate(cell);
 }
 
 FieldValue BoneField::at(const glm::vec3& point) const {
   Cell cell;
-  if (!find_cell(point, cell)) return {far_distance(point, band_), away(point)};
-  if (cell.corner == nullptr) return {far_distance(point, cell.bound), away(point)};
+  if (!find_cell(point, cell)) return {far_distance(point), away(point)};
+  if (cell.bound > 0.0f) return {cell.bound, away(point)};
   const float distance = interpolate(cell);
   if (distance > band_) return {distance, away(point)};
   const float* c = cell.corner;
@@ -164,7 +170,27 @@ FieldValue BoneField::at(const glm::vec3& point) const {
 
 void BoneField::distances(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                           std::span<float> distance) const {
-  for (std::size_t i = 0; i < distance.size(); ++i) distance[i] = this->distance({x[i], y[i], z[i]});
+  if (samples_.empty()) return std::fill(distance.begin(), distance.end(), kNowhere);
+  constexpr std::size_t kBlock = 32;
+  std::array<Cell, kBlock> cells;
+  for (std::size_t first = 0; first < distance.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, distance.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      Cell& cell = cells[i];
+      if (!find_cell({x[first + i], y[first + i], z[first + i]}, cell)) {
+        cell.corner = samples_.data();
+        cell.bound = far_distance({x[first + i], y[first + i], z[first + i]});
+        continue;
+      }
+      __builtin_prefetch(cell.corner);
+      __builtin_prefetch(cell.corner + kSlab);
+    }
+    // Without a branch: which of the two it is can't be foreseen, and those without samples read the first ones.
+    for (std::size_t i = 0; i < count; ++i) {
+      const float interpolated = interpolate(cells[i]);
+      distance[first + i] = cells[i].bound > 0.0f ? cells[i].bound : interpolated;
+    }
+  }
 }
 
 std::size_t BoneField::heap_bytes() const {

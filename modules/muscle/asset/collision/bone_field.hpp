@@ -64,14 +64,14 @@ class BoneField {
   struct Cell;
   bool find_cell(const glm::vec3& point, Cell& cell) const;
   float interpolate(const Cell& cell) const;
-  float far_distance(const glm::vec3& point, float bound) const;
+  float far_distance(const glm::vec3& point) const;
   glm::vec3 away(const glm::vec3& point) const;
 
   float voxel_ = 0.0f, band_ = 0.0f, inverse_voxel_ = 0.0f;
   glm::vec3 lower_{0.0f}, upper_{0.0f}, origin_{0.0f};
   glm::vec3 extent_{-1.0f};  // in samples, from the first to the last of all bricks; negative: no bone
   glm::ivec3 count_{0};
-  // By brick: the place of its samples, in bricks; or with the sign bit set the bits of -bound, a float in m.
+  // By brick: the place of its samples, in bricks; or, with the sign bit set, the bits of -bound, a float in m.
   std::vector<std::uint32_t> table_;
   AlignedVector<float> samples_;
 };
