@@ -50,12 +50,12 @@ std::string row_of(const CollideReport& report, const char* name, const Figures&
   const auto place = [&](const PairDepth& pair, std::uint64_t frame) {
     return frame == 0 ? name_of(report, pair) : fmt::format("{} ({})", name_of(report, pair), frame);
   };
-  return fmt::format("{:<8}{:>7.2f}  {:<36}{:>7.2f}  {:<52}{:>7.2f}{:>8.2f}{:>9.2f}{:>8.2f}{:>8.2f}%{:>7}{:>6}{:>10.5f}\n",
-                     name, mm(figures.bone.bone.depth), place(figures.bone.bone, figures.bone.frame),
-                     mm(figures.muscle.muscle.depth), place(figures.muscle.muscle, figures.muscle.frame),
-                     mm(figures.beyond.bone), mm(figures.beyond.bone_pair), mm(figures.beyond.muscle),
-                     mm(figures.beyond.muscle_pair), 100.0 * static_cast<double>(figures.area.area.relative), fallbacks,
-                     held, jitter);
+  return fmt::format(
+      "{:<8}{:>7.2f}  {:<36}{:>7.2f}  {:<52}{:>7.2f}{:>8.2f}{:>9.2f}{:>8.2f}{:>8.2f}%{:>7}{:>6}{:>10.5f}\n", name,
+      mm(figures.bone.bone.depth), place(figures.bone.bone, figures.bone.frame), mm(figures.muscle.muscle.depth),
+      place(figures.muscle.muscle, figures.muscle.frame), mm(figures.beyond.bone), mm(figures.beyond.bone_pair),
+      mm(figures.beyond.muscle), mm(figures.beyond.muscle_pair),
+      100.0 * static_cast<double>(figures.area.area.relative), fallbacks, held, jitter);
 }
 
 Figures rest_figures(const CollideReport& report) {
@@ -145,8 +145,9 @@ std::string to_pair_tables(const CollideReport& report, std::size_t count) {
 }
 
 std::string to_json(const CollideReport& report) {
-  std::string text = fmt::format("{{\n  \"scene\": {},\n  \"muscles\": {},\n  \"frames\": {},\n  \"step_hz\": {},\n  \"runs\": [\n    ",
-                                 quote_json(report.scene), report.asset->size(), report.options.frames, report.step_hz);
+  std::string text = fmt::format(
+      "{{\n  \"scene\": {},\n  \"muscles\": {},\n  \"frames\": {},\n  \"step_hz\": {},\n  \"runs\": [\n    ",
+      quote_json(report.scene), report.asset->size(), report.options.frames, report.step_hz);
   text += json_of(report, "rest", rest_figures(report)) + "\n    }";
   for (const CollideRun& run : report.runs) {
     text += ",\n    " + json_of(report, to_string(run.mode), worst_of(run, report.options.first));

@@ -8,9 +8,9 @@
 
 namespace fascicle::cook {
 
-// A row for the rest pose and for each mode. Columns, in mm: the deepest in a bone and in another muscle, with place and
-// frame; each beyond the rest pose's deepest, and by pair beyond the same pair at rest; then the worst section's area
-// off its target, fallbacks and held steps, and the jitter.
+// A row for the rest pose and for each mode. Columns, in mm: the deepest in a bone and in another muscle, with place
+// and frame; each beyond the rest pose's deepest, and by pair beyond the same pair at rest; then the worst section's
+// area off its target, fallbacks and held steps, and the jitter.
 std::string to_table(const CollideReport& report);
 
 // The pairs with the greatest depth at rest, and of each mode those with the most beyond rest: `count` of bones and as

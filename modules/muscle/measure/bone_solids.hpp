@@ -26,7 +26,8 @@ class BoneSolid {
   std::int32_t bone() const { return bone_; }
   const Box& box() const { return box_; }  // m, in the bone's frame; nothing outside is inside the bone
 
-  // How deep a point of the bone's frame is in the bone (m); any number up to `enough` where it is not deeper than that.
+  // How deep a point of the bone's frame is in the bone (m); any number up to `enough` where it is not deeper than
+  // that.
   double depth_beyond(const glm::vec3& point, double enough) const;
   // The same without the grid, for tests.
   double exact_depth(const glm::vec3& point) const;

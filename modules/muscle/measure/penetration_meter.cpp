@@ -58,13 +58,20 @@ bool is_usable(const glm::mat4& matrix) {
   return true;
 }
 
-void keep_deeper(std::vector<PairDepth>& pairs, const PairDepth& pair, bool same) {
-  if (same && pairs.back().depth >= pair.depth) return;
-  if (same) {
-    pairs.back() = pair;
-  } else {
-    pairs.push_back(pair);
+// Of pairs with one key the deepest, by rising keys.
+template <class Key>
+void keep_deepest(std::vector<PairDepth>& pairs, Key key) {
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [&](const PairDepth& a, const PairDepth& b) { return key(a) < key(b); });
+  std::vector<PairDepth> kept;
+  for (const PairDepth& pair : pairs) {
+    if (kept.empty() || key(kept.back()) != key(pair)) {
+      kept.push_back(pair);
+    } else if (pair.depth > kept.back().depth) {
+      kept.back() = pair;
+    }
   }
+  pairs = std::move(kept);
 }
 
 }  // namespace
@@ -215,15 +222,8 @@ Penetration PenetrationMeter::measure(const MuscleSurfaces& surfaces, const Tend
     }
   }
   // A bone may have several meshes, two muscles have two surfaces: the deeper one stands for the pair.
-  const auto deepest_of_each = [](std::vector<PairDepth>& pairs, auto key) {
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [&](const PairDepth& a, const PairDepth& b) { return key(a) < key(b); });
-    std::vector<PairDepth> kept;
-    for (const PairDepth& pair : pairs) keep_deeper(kept, pair, !kept.empty() && key(kept.back()) == key(pair));
-    pairs = std::move(kept);
-  };
-  deepest_of_each(result.bones, [](const PairDepth& p) { return std::tuple(p.muscle, p.bone); });
-  deepest_of_each(result.muscles, [](const PairDepth& p) {
+  keep_deepest(result.bones, [](const PairDepth& p) { return std::tuple(p.muscle, p.bone); });
+  keep_deepest(result.muscles, [](const PairDepth& p) {
     return std::tuple(std::min(p.muscle, p.other), std::max(p.muscle, p.other));
   });
   return result;

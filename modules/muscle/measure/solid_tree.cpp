@@ -13,8 +13,8 @@
 namespace fascicle::muscle {
 namespace {
 
-// +1 where the triangle, seen from +z, runs anticlockwise round the point, -1 where clockwise, 0 where it does not. Each
-// edge is asked in one way whichever triangle it belongs to, and its ends count half-open, so that along a closed
+// +1 where the triangle, seen from +z, runs anticlockwise round the point, -1 where clockwise, 0 where it does not.
+// Each edge is asked in one way whichever triangle it belongs to, and its ends count half-open, so that along a closed
 // surface no crossing is lost and none counts twice.
 int turns_round(const std::array<glm::vec3, 3>& corners, double x, double y) {
   int turns = 0;

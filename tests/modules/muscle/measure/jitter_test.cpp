@@ -1,5 +1,7 @@
 #include "modules/muscle/measure/jitter.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "modules/muscle/components/lay_out_state.hpp"

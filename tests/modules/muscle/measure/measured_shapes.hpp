@@ -28,7 +28,8 @@ inline muscle::MuscleDescription cylinder(const std::string& name, const glm::ve
   return description;
 }
 
-inline muscle::BoneMesh bone_of(const TriangleMesh& mesh, std::int32_t bone = 0, const glm::mat4& transform = glm::mat4(1.0f)) {
+inline muscle::BoneMesh bone_of(const TriangleMesh& mesh, std::int32_t bone = 0,
+                                const glm::mat4& transform = glm::mat4(1.0f)) {
   return {bone, transform, std::make_shared<const TriangleMesh>(mesh)};
 }
 

@@ -1,5 +1,6 @@
 #include "modules/muscle/measure/penetration_meter.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ using test::Measured;
 constexpr float kTolerance = 1.5e-4f;  // m: the cylinders have 64 sides, the points are 3 mm apart
 
 TEST(PenetrationMeter, NothingTouchesNothing) {
-  const Measured apart({cylinder("a", {0, 0, 0}, {0, 0.2f, 0}, 0.01f), cylinder("b", {0.03f, 0, 0}, {0.03f, 0.2f, 0}, 0.01f)},
+  const Measured apart({cylinder("a", {0, 0, 0}, {0, 0.2f, 0}, 0.01f),
+                        cylinder("b", {0.03f, 0, 0}, {0.03f, 0.2f, 0}, 0.01f)},
                        {bone_of(test::make_sphere(0.02f, 16, 32, {0, 0.1f, 0.05f}))});
   const Penetration found = apart.at_rest();
   EXPECT_TRUE(found.bones.empty());
@@ -27,7 +29,8 @@ TEST(PenetrationMeter, NothingTouchesNothing) {
 }
 
 TEST(PenetrationMeter, SurfacesThatAreNotFiniteAndCollapsedOnesAreLeftOut) {
-  const Measured pair({cylinder("a", {0, 0, 0}, {0, 0.2f, 0}, 0.02f), cylinder("b", {0.03f, 0, 0}, {0.03f, 0.2f, 0}, 0.02f),
+  const Measured pair({cylinder("a", {0, 0, 0}, {0, 0.2f, 0}, 0.02f),
+                       cylinder("b", {0.03f, 0, 0}, {0.03f, 0.2f, 0}, 0.02f),
                        cylinder("c", {0.06f, 0, 0}, {0.06f, 0.2f, 0}, 0.02f)},
                       {});
   const std::vector<glm::mat4> bones{glm::mat4(1.0f)};
@@ -40,7 +43,9 @@ TEST(PenetrationMeter, SurfacesThatAreNotFiniteAndCollapsedOnesAreLeftOut) {
   ASSERT_EQ(without.muscles.size(), 1u);
   EXPECT_EQ(without.muscles[0].muscle + without.muscles[0].other, 3u);
   const MuscleLayout& last = pair.asset->muscles[2];
-  for (std::uint32_t v = 0; v < last.vertex_count; ++v) rest.surfaces.vertices[last.first_vertex + v].position = glm::vec3(0.03f, 0.1f, 0.0f);
+  for (std::uint32_t v = 0; v < last.vertex_count; ++v) {
+    rest.surfaces.vertices[last.first_vertex + v].position = glm::vec3(0.03f, 0.1f, 0.0f);
+  }
   const Penetration alone = meter.measure(rest.surfaces, rest.tendons, bones);
   EXPECT_EQ(alone.left_out, 2u);
   EXPECT_TRUE(alone.muscles.empty());
@@ -75,8 +80,9 @@ TEST(PenetrationMeter, TheOthersEndsAreClosed) {
 
 // A thin muscle along the diameter of a sphere: deepest on the middle, one muscle's radius from the centre.
 TEST(PenetrationMeter, ACylinderThroughASphereIsAsDeepAsItsSurfaceIsNearTheCentre) {
+  const glm::mat4 half_way = glm::translate(glm::mat4(1.0f), {0, 0.1f, 0});
   const Measured through({cylinder("a", {0, 0, 0}, {0, 0.2f, 0}, 0.01f)},
-                         {bone_of(test::make_sphere(0.03f, 64, 128), 0, glm::translate(glm::mat4(1.0f), {0, 0.1f, 0}))});
+                         {bone_of(test::make_sphere(0.03f, 64, 128), 0, half_way)});
   const Penetration found = through.at_rest();
   ASSERT_EQ(found.bones.size(), 1u);
   EXPECT_NEAR(found.bones[0].depth, 0.02f, kTolerance);
@@ -96,7 +102,8 @@ TEST(PenetrationMeter, BonesAreMeasuredWhereTheyAre) {
   ASSERT_EQ(pair.at(pose).bones.size(), 1u);
   EXPECT_NEAR(pair.at(pose).bones[0].depth, 0.003f, kTolerance);
   // All together may turn and move without a difference.
-  const glm::mat4 away = glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, -2.0f, 1.0f}), 1.0f, glm::vec3(0.6f, 0.0f, 0.8f));
+  const glm::mat4 away =
+      glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, -2.0f, 1.0f}), 1.0f, glm::vec3(0.6f, 0.0f, 0.8f));
   for (glm::mat4& bone : pose) bone = away * bone;
   ASSERT_EQ(pair.at(pose).bones.size(), 1u);
   EXPECT_NEAR(pair.at(pose).bones[0].depth, 0.003f, kTolerance);

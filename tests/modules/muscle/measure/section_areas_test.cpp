@@ -1,5 +1,6 @@
 #include "modules/muscle/measure/section_areas.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -92,7 +92,9 @@ TEST(WalkerMeasure, WorkersDoNotMatter) {
     arena.execute([&] {
       PenetrationMeter meter(walker.character->muscles, make_bone_solids(walker.character->bone_meshes));
       // The second answer must not depend on the first.
-      for (int i = 0; i < 2; ++i) result = meter.measure(walker.surfaces.surfaces, walker.surfaces.tendons, walker.bones);
+      for (int i = 0; i < 2; ++i) {
+        result = meter.measure(walker.surfaces.surfaces, walker.surfaces.tendons, walker.bones);
+      }
     });
     return result;
   };
