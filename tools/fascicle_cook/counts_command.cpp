@@ -26,7 +26,7 @@ int print_counts(const std::string& name) {
     print_diagnostics(file.diagnostics());
     return kErrors;
   }
-  const auto character = muscle::load_character(*file);
+  const auto character = muscle::load_character(*file, {.bone_fields = false});
   print_diagnostics(character.diagnostics());
   if (!character) return kErrors;
   std::vector<muscle::MuscleDescription> descriptions = (*character)->descriptions;

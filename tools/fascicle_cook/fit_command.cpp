@@ -68,6 +68,7 @@ std::optional<Source> load(const Options& options) {
   }
   muscle::LoadOptions load_options;
   load_options.fit = options.table ? muscle::FitMode::kNone : muscle::FitMode::kFresh;
+  load_options.bone_fields = false;
   load_options.section_vertices = options.section_vertices;
   load_options.longitudinal_subdivision = options.longitudinal_subdivision;
   const auto character = muscle::load_character(*file, load_options);

@@ -105,7 +105,7 @@ void analyse_character(const std::string& name, std::span<const double> fraction
   Result<std::filesystem::path> file = find_character(name);
   analysis.diagnostics.append(std::move(file.diagnostics()));
   if (!file) return;
-  auto character = muscle::load_character(*file, {.fit = muscle::FitMode::kNone});
+  auto character = muscle::load_character(*file, {.fit = muscle::FitMode::kNone, .bone_fields = false});
   analysis.diagnostics.append(std::move(character.diagnostics()));
   if (!character) return;
   std::set<const TriangleMesh*> done;
