@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "modules/muscle/asset/collision/tag_angle.hpp"
 #include "modules/muscle/content/mirror.hpp"
 
 namespace fascicle::muscle {
@@ -41,17 +42,25 @@ Frame section_frame(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_
           {asset.rest_vx[s], asset.rest_vy[s], asset.rest_vz[s]}};
 }
 
-Frame frame_at(const MuscleAsset& asset, std::uint32_t muscle, const LineSpot& spot) {
-  const Frame a = section_frame(asset, muscle, spot.below), b = section_frame(asset, muscle, spot.below + 1);
-  return {glm::mix(a.centre, b.centre, spot.share), glm::mix(a.u, b.u, spot.share), glm::mix(a.v, b.v, spot.share)};
-}
-
 float radius_at(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section, float angle) {
   const std::uint32_t count = asset.muscles[muscle].section_vertices;
-  const float at = angle / kTurn * static_cast<float>(count);
+  const float at = wrap_angle(angle) / kTurn * static_cast<float>(count);
   const auto below = static_cast<std::uint32_t>(at);
   const float* radii = &asset.rest_radii[asset.radius(muscle, section)];
   return radii[below % count] + (at - std::floor(at)) * (radii[(below + 1) % count] - radii[below % count]);
+}
+
+// Where the tag's angle is on one section.
+glm::vec3 place_on(const MuscleAsset& asset, const SectionTag& tag, std::uint32_t section) {
+  const Frame frame = section_frame(asset, tag.muscle, section);
+  const float angle = tag.angle + tag_angle_offset(asset, tag.muscle, section);
+  return frame.centre + radius_at(asset, tag.muscle, section, angle) *
+                            (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
+}
+
+std::uint32_t nearest_section(const MuscleAsset& asset, std::uint32_t muscle, float fraction) {
+  const LineSpot spot = find_spot(asset, muscle, fraction);
+  return spot.below + (spot.share > 0.5f ? 1 : 0);
 }
 
 }  // namespace
@@ -67,25 +76,24 @@ glm::vec3 rest_vertex(const MuscleAsset& asset, std::uint32_t muscle, std::uint3
 SectionTag tag_of(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section, std::uint32_t vertex) {
   const MuscleLayout& layout = asset.muscles[muscle];
   const float length = asset.rest_arc[asset.slot(muscle, layout.section_count - 1)];
+  const float angle = kTurn * static_cast<float>(vertex) / static_cast<float>(layout.section_vertices);
   return {muscle, asset.rest_arc[asset.slot(muscle, section)] / length,
-          kTurn * static_cast<float>(vertex) / static_cast<float>(layout.section_vertices)};
+          wrap_angle(angle - tag_angle_offset(asset, muscle, section))};
 }
 
 glm::vec3 tagged_place(const MuscleAsset& asset, const SectionTag& tag) {
   const LineSpot spot = find_spot(asset, tag.muscle, tag.fraction);
-  const Frame frame = frame_at(asset, tag.muscle, spot);
-  const float radius = std::lerp(radius_at(asset, tag.muscle, spot.below, tag.angle),
-                                 radius_at(asset, tag.muscle, spot.below + 1, tag.angle), spot.share);
-  return frame.centre + radius * (std::cos(tag.angle) * frame.u + std::sin(tag.angle) * frame.v);
+  return glm::mix(place_on(asset, tag, spot.below), place_on(asset, tag, spot.below + 1), spot.share);
 }
 
 SectionTag mirror_tag(const MuscleAsset& asset, const SectionTag& tag, std::uint32_t other, int axis) {
-  const Frame from = frame_at(asset, tag.muscle, find_spot(asset, tag.muscle, tag.fraction));
-  const Frame to = frame_at(asset, other, find_spot(asset, other, tag.fraction));
-  const glm::vec3 direction = mirror_point(std::cos(tag.angle) * from.u + std::sin(tag.angle) * from.v, axis);
-  float angle = std::atan2(glm::dot(direction, to.v), glm::dot(direction, to.u));
-  if (angle < 0.0f) angle += kTurn;
-  return {other, tag.fraction, angle < kTurn ? angle : 0.0f};
+  const std::uint32_t here = nearest_section(asset, tag.muscle, tag.fraction);
+  const std::uint32_t there = nearest_section(asset, other, tag.fraction);
+  const Frame from = section_frame(asset, tag.muscle, here), to = section_frame(asset, other, there);
+  const float angle = tag.angle + tag_angle_offset(asset, tag.muscle, here);
+  const glm::vec3 direction = mirror_point(std::cos(angle) * from.u + std::sin(angle) * from.v, axis);
+  const float mirrored = std::atan2(glm::dot(direction, to.v), glm::dot(direction, to.u));
+  return {other, tag.fraction, wrap_angle(mirrored - tag_angle_offset(asset, other, there))};
 }
 
 }  // namespace fascicle::muscle

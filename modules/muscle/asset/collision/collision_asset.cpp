@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "modules/muscle/asset/collision/tag_angle.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/kernels/collision/keep_sides.hpp"
 #include "modules/muscle/kernels/collision/place_samples.hpp"
@@ -293,7 +294,8 @@ TaggedVertex find_tagged_vertex(const MuscleAsset& muscles, const SectionTag& ta
     }
   }
   const float count = static_cast<float>(layout.section_vertices);
-  const float turns = tag.angle / (2.0f * std::numbers::pi_v<float>);
+  const float angle = wrap_angle(tag.angle + tag_angle_offset(muscles, tag.muscle, found.section));
+  const float turns = angle / (2.0f * std::numbers::pi_v<float>);
   found.vertex = static_cast<std::uint32_t>(std::lround((turns - std::floor(turns)) * count)) % layout.section_vertices;
   return found;
 }

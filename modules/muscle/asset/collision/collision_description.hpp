@@ -14,7 +14,7 @@ namespace fascicle::muscle {
 struct SectionTag {
   std::uint32_t muscle = 0;  // index of the muscle's description
   float fraction = 0.5f;     // of the rest line's arc length, origin 0 to insertion 1
-  float angle = 0.0f;        // rad, 0..2 pi: theta about the section's normal, from u_k (1.3)
+  float angle = 0.0f;        // rad, 0..2 pi: theta about the section's normal (1.3), from tag_angle.hpp's u_k
 };
 
 // Who moves when two tagged sections have come into each other. Bones never do.
