@@ -118,6 +118,7 @@ void add_collision(ecs::World& world, ecs::Entity musculature,
     lay_out(*levels[level], collision);
     world.resource<CollisionScratch>().reserve(*levels[level]);
   }
+  collision.pose.reserve(levels.front()->muscles->bone_count);
   for (AlignedVector<float>& carried : collision.carried) carried.reserve(collision.radii.size());
   MuscleContacts contacts;
   const std::size_t pairs = kContactsPerMuscle * levels.front()->muscles->size();

@@ -35,7 +35,7 @@ std::size_t heap_bytes(const CrossSections& sections) {
 }
 
 std::size_t heap_bytes(const MuscleCollision& c) {
-  return bytes_of(c.levels, c.offset_x, c.offset_y, c.offset_z, c.radii, c.rest_radii, c.carried[0], c.carried[1],
+  return bytes_of(c.levels, c.offset_x, c.offset_y, c.offset_z, c.radii, c.rest_radii, c.pose, c.carried[0], c.carried[1],
                   c.carried[2], c.carried[3], c.target_area, c.area, c.depth, c.cost);
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/math/aligned_vector.hpp"
@@ -27,6 +28,9 @@ struct MuscleCollision {
   AlignedVector<float> radii;                         // m, by MuscleAsset::radius
   AlignedVector<float> rest_radii;                    // m: the shape that they come back to
   float morph = 0.0f;                                 // that rest_radii are for
+  // How long the pose has been the same, and which that is: bone to the first one's frame.
+  float still = 0.0f;  // s
+  std::vector<glm::mat4> pose;
   AlignedVector<float> carried[4];                    // scratch of a change of level
 
   // Written by the solve, for measuring; by CollisionAsset::sections.

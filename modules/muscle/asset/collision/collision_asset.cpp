@@ -107,12 +107,18 @@ void list_rows(float spacing, CollisionAsset& asset) {
     for (std::uint32_t k = 0; k < last; ++k) {
       const std::uint32_t section = asset.first_section[m] + k;
       if (k > 0) add_row(section, 0.0f, spacing, asset);
-      const float length = arc_at(muscles, m, k + 1) - arc_at(muscles, m, k);
+      // Of the end segments the inner half.
+      const float from = k == 0 ? 0.5f : 0.0f, to = k + 1 == last ? 0.5f : 1.0f;
+      // Where the line bends, or the muscle fans out, meridians are much longer than the line.
+      float length = 0.0f;
+      for (std::uint32_t i = 0; i < asset.sections[section].count; ++i) {
+        length = std::max(length, glm::distance(rest_vertex(muscles, m, k, i), rest_vertex(muscles, m, k + 1, i)));
+      }
+      length *= to - from;
       const std::uint32_t parts = static_cast<std::uint32_t>(std::clamp(std::ceil(length / spacing), 1.0f, 64.0f));
-      for (std::uint32_t i = 1; i < parts; ++i) {
-        const float weight = static_cast<float>(i) / static_cast<float>(parts);
-        if ((k == 0 && weight < 0.5f) || (k + 1 == last && weight > 0.5f)) continue;
-        add_row(section, weight, spacing, asset);
+      for (std::uint32_t i = 0; i <= parts; ++i) {
+        const float weight = from + (to - from) * static_cast<float>(i) / static_cast<float>(parts);
+        if (weight > 0.0f && weight < 1.0f) add_row(section, weight, spacing, asset);
       }
     }
   }

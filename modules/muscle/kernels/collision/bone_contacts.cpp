@@ -13,7 +13,7 @@ namespace fascicle::muscle {
 namespace {
 
 // A sample whose own surface looks along the way out of the bone, rather than against it, has come through to the far
-// side: it goes back the way it came, along its radius, not out of the back.
+// side: it goes back the way it came, against its own normal, not out of the back.
 constexpr float kThrough = 0.3f;
 
 bool overlap(const Bounds& a, const Bounds& b) {
@@ -69,9 +69,10 @@ class BoneTest {
     Contact contact;
     contact.bone = static_cast<std::int32_t>(place_);
     contact.normal = turn_ * value.gradient;
-    const glm::vec3 outward = sample_direction(asset_, work_, r, i);
+    const glm::vec3 outward = sample_normal(asset_, work_, r, i);
     if (value.distance + allowed < 0.0f && glm::dot(contact.normal, outward) > kThrough) contact.normal = -outward;
     if (!carry_sample(asset_, work_, r, i, contact)) return;
+    contact.allowed = allowed;
     contact.found = value.distance + allowed - margin_;
     contact.base = glm::dot(contact.normal, contact.place) - contact.found;
     add_contact(contact, work_);
@@ -95,6 +96,7 @@ void test_centres(const CollisionAsset& asset, std::size_t place, const glm::mat
     if (allowed == kNeverTouches) continue;
     const FieldValue value = asset.fields[place]->at((work.a[s] - glm::vec3(bone[3])) * glm::mat3(bone));
     Contact contact;
+    contact.allowed = allowed;
     contact.found = value.distance + allowed - margin;
     if (contact.found > reach || value.gradient == glm::vec3(0.0f)) continue;
     contact.bone = static_cast<std::int32_t>(place);
@@ -125,6 +127,26 @@ void find_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> 
       }
       test_centres(asset, place, bone, margin, reach, static_cast<std::uint32_t>(m), work);
     }
+  }
+}
+
+void refresh_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> bones, float margin,
+                           CollisionWork& work) {
+  for (Contact& contact : work.contacts) {
+    if (contact.bone < 0) continue;
+    const std::size_t place = static_cast<std::size_t>(contact.bone);
+    const glm::mat4& bone = bones[static_cast<std::size_t>(asset.bones[place])];
+    const glm::vec3 now = sample_place(contact, work);
+    const FieldValue value = asset.fields[place]->at((now - glm::vec3(bone[3])) * glm::mat3(bone));
+    if (value.gradient == glm::vec3(0.0f)) continue;
+    glm::vec3 normal = glm::mat3(bone) * value.gradient;
+    if (contact.row != kCentreRow && value.distance + contact.allowed < 0.0f) {
+      const glm::vec3 outward = sample_normal(asset, work, contact.row, contact.sample);
+      if (glm::dot(normal, outward) > kThrough) normal = -outward;
+    }
+    turn_contact(work, normal, contact);
+    weigh_contact(work, contact);
+    contact.base = glm::dot(normal, now) - (value.distance + contact.allowed - margin);
   }
 }
 

@@ -15,4 +15,8 @@ namespace fascicle::muscle {
 void find_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> bones, float margin, float reach,
                         CollisionWork& work);
 
+// Asks the fields again for the bone contacts that there are, at their samples' present places.
+void refresh_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat4> bones, float margin,
+                           CollisionWork& work);
+
 }  // namespace fascicle::muscle

@@ -24,6 +24,7 @@ struct Contact {
   std::uint32_t section = 0;           // the sample lies between this section and the next
   float weight[2] = {};                // of the two sections
   std::uint32_t radius[4] = {};        // of the vertices that it hangs on, two of each
+  float share[4] = {};                 // of these vertices
   float lever[4] = {};                 // dC/dr
   std::int32_t bone = -1;              // >= 0: place in CollisionAsset::bones; else another muscle's:
   std::uint32_t other_section = 0;     // before q
@@ -32,8 +33,10 @@ struct Contact {
   float other_lever[4] = {};           // dC/dr
   float inverse_mass = 0.0f;           // of the constraint: 1 / (sum of w |dC|^2)
   float found = 0.0f;                  // m: C where it was found; negative: too deep
+  float bias = 0.0f;                   // m, <= 0: what C may still be in this substep
   float push = 0.0f;                   // what it has pushed in this solve (its multiplier), >= 0
   std::uint32_t row = 0, sample = 0;   // which: of the row
+  float allowed = 0.0f;                // m: depth that there is at rest
   glm::vec3 place{0.0f};               // m, world: of the sample where it was found
 };
 

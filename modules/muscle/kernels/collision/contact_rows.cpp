@@ -1,11 +1,11 @@
 #include "modules/muscle/kernels/collision/contact_rows.hpp"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 namespace fascicle::muscle {
 namespace {
-
-constexpr float kMostPush = 0.0015f;  // m, of a contact in a substep
 
 glm::vec3 direction(const CollisionWork& work, std::uint32_t radius) {
   return glm::vec3(work.dir_x[radius], work.dir_y[radius], work.dir_z[radius]);
@@ -18,15 +18,37 @@ float radius_mobility(const CollisionWork& work, std::uint32_t section) {
 
 }  // namespace
 
-glm::vec3 sample_direction(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row,
-                           std::uint32_t sample) {
+glm::vec3 sample_normal(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row,
+                        std::uint32_t sample) {
   const SampleRow& r = asset.rows[row];
   const std::uint32_t section = r.weight < 0.5f ? r.section : r.section + 1;
   const SurfaceSample& s = asset.samples[r.first_sample + sample];
-  const std::uint32_t count = asset.sections[section].count;
-  const std::uint32_t vertex = s.fraction < 32768 ? s.vertex : (s.vertex + 1u == count ? 0u : s.vertex + 1u);
-  const std::uint32_t radius = asset.sections[section].first_radius + vertex;
-  return (work.radii[radius] < 0.0f ? -1.0f : 1.0f) * direction(work, radius);
+  const std::uint32_t count = asset.sections[section].count, first = asset.sections[section].first_radius;
+  const std::uint32_t from = s.fraction > 0 ? s.vertex : (s.vertex == 0 ? count - 1 : s.vertex - 1u);
+  const std::uint32_t to = s.vertex + 1u == count ? 0u : s.vertex + 1u;
+  const auto vertex = [&](std::uint32_t i) {
+    return glm::vec3(work.vertex_x[first + i], work.vertex_y[first + i], work.vertex_z[first + i]);
+  };
+  const glm::vec3 normal = glm::cross(vertex(to) - vertex(from), work.t[section]);
+  const float length2 = glm::dot(normal, normal);
+  return length2 > 1.0e-14f ? normal / std::sqrt(length2) : direction(work, first + s.vertex);
+}
+
+glm::vec3 sample_place(const Contact& contact, const CollisionWork& work) {
+  // On a section the second half has no weight, whatever it names.
+  const std::uint32_t next = contact.weight[1] > 0.0f ? contact.section + 1 : contact.section;
+  glm::vec3 place = contact.weight[0] * work.a[contact.section] + contact.weight[1] * work.a[next];
+  for (std::uint32_t j = 0; j < 4; ++j) {
+    place += (contact.share[j] * work.radii[contact.radius[j]]) * direction(work, contact.radius[j]);
+  }
+  return place;
+}
+
+void turn_contact(const CollisionWork& work, const glm::vec3& normal, Contact& contact) {
+  contact.normal = normal;
+  for (std::uint32_t j = 0; j < 4; ++j) {
+    contact.lever[j] = contact.share[j] * glm::dot(normal, direction(work, contact.radius[j]));
+  }
 }
 
 bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::uint32_t row, std::uint32_t sample,
@@ -50,6 +72,7 @@ bool carry_sample(const CollisionAsset& asset, const CollisionWork& work, std::u
     for (std::uint32_t j = 0; j < 2; ++j) {
       const std::uint32_t radius = first + (j == 0 ? s.vertex : next);
       contact.radius[2 * k + j] = radius;
+      contact.share[2 * k + j] = weights.of[2 * k + j];
       contact.lever[2 * k + j] = weights.of[2 * k + j] * glm::dot(contact.normal, direction(work, radius));
     }
     moves = moves || (contact.weight[k] > 0.0f && work.mobility[section] > 0.0f);
@@ -75,7 +98,7 @@ void carry_outline(const CollisionAsset& asset, const CollisionWork& work, std::
   }
 }
 
-void add_contact(Contact& contact, CollisionWork& work) {
+bool weigh_contact(const CollisionWork& work, Contact& contact) {
   float sum = 0.0f;
   for (std::uint32_t k = 0; k < 2; ++k) {
     if (contact.weight[k] == 0.0f) continue;
@@ -94,10 +117,13 @@ void add_contact(Contact& contact, CollisionWork& work) {
       }
     }
   }
-  if (!(sum > 1.0e-6f)) return;
+  if (!(sum > 1.0e-6f)) return false;
   contact.inverse_mass = 1.0f / sum;
-  // What is deeper comes out over several substeps: contacts know no more than their neighbourhood.
-  if (contact.found < -kMostPush) contact.base += contact.found + kMostPush;
+  return true;
+}
+
+void add_contact(Contact& contact, CollisionWork& work) {
+  if (!weigh_contact(work, contact)) return;
   if (work.contacts.size() == work.contacts.capacity()) {
     work.overflow = true;
     return;

@@ -93,7 +93,7 @@ class MuscleTest {
       outline.v[k] = work_.v[segment + k];
     }
     OutlinePoint point;
-    if (!find_outline_point(outline, along, p, sample_direction(asset_, work_, r, i), margin_ + reach_, point)) return;
+    if (!find_outline_point(outline, along, p, sample_normal(asset_, work_, r, i), margin_ + reach_, point)) return;
     const float allowed = allowed_depth(r, i, other);
     const float value = point.distance + allowed - margin_;
     if (value > reach_) return;
@@ -102,6 +102,7 @@ class MuscleTest {
     carry_sample(asset_, work_, r, i, contact);
     carry_outline(asset_, work_, segment, along, point.edge, point.fraction, contact);
     contact.found = value;
+    contact.allowed = allowed;
     // n . (c - q) is the distance now.
     contact.base = margin_ - allowed;
     add_contact(contact, work_);

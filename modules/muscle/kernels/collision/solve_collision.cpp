@@ -16,7 +16,8 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr float kReach = 0.0015f;         // m: contacts are found this far ahead
+constexpr float kReach = 0.0025f;         // m: contacts are found this far ahead of a step
+constexpr float kMostPush = 0.0015f;      // m, of a contact in a substep: it knows no more than its neighbourhood
 constexpr float kHolds = 0.0002f;         // m: nearer than this a contact keeps its radii from growing
 constexpr float kHoldingLever = 0.1f;     // of a contact on a radius
 constexpr float kLargestInflation = 1.25f;  // in one round
@@ -120,7 +121,7 @@ void find_contacts(const CollisionAsset& asset, const CollisionSettings& setting
 
 void project_contacts(CollisionWork& work) {
   for (Contact& contact : work.contacts) {
-    const float wanted = contact.push - contact_value(contact, work) * contact.inverse_mass;
+    const float wanted = contact.push - (contact_value(contact, work) - contact.bias) * contact.inverse_mass;
     const float push = std::max(wanted, 0.0f);
     if (push != contact.push) move_sample(contact, push - contact.push, work);
     contact.push = push;
@@ -147,15 +148,25 @@ void hold_areas(const CollisionAsset& asset, CollisionWork& work) {
   }
 }
 
+void begin_substep(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
+                   CollisionWork& work) {
+  refresh_bone_contacts(asset, bones, settings.bone_margin, work);
+  for (Contact& contact : work.contacts) {
+    contact.bias = std::min(contact_value(contact, work) + kMostPush, 0.0f);
+    contact.push = 0.0f;
+  }
+}
+
 void solve_collision(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
                      float step, CollisionWork& work) {
   place_directions(asset, work);
-  const float substep = step / static_cast<float>(settings.substeps);
   recall_strayed(asset, bones, work);
+  hold_transversals(asset, bones, work);
+  find_contacts(asset, settings, bones, work);
+  const float substep = step / static_cast<float>(settings.substeps);
   for (std::uint32_t i = 0; i < settings.substeps; ++i) {
     relax_shape(asset, settings, substep, work);
-    hold_transversals(asset, bones, work);
-    find_contacts(asset, settings, bones, work);
+    begin_substep(asset, settings, bones, work);
     for (std::uint32_t k = 0; k < settings.iterations; ++k) {
       hold_areas(asset, work);
       project_contacts(work);

@@ -25,6 +25,8 @@ void solve_collision(const CollisionAsset& asset, const CollisionSettings& setti
 void relax_shape(const CollisionAsset& asset, const CollisionSettings& settings, float step, CollisionWork& work);
 void find_contacts(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
                    CollisionWork& work);
+void begin_substep(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
+                   CollisionWork& work);
 void project_contacts(CollisionWork& work);
 void hold_areas(const CollisionAsset& asset, CollisionWork& work);
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "engine/ecs/each_in_parallel.hpp"
 #include "modules/muscle/asset/collision/collision_asset.hpp"
@@ -21,6 +23,9 @@ constexpr float kLineMass = 1.0f;            // of a_k, in the masses of its rad
 constexpr float kLeastBelly = 0.4f, kMostBelly = 2.5f;  // of its length at rest, for the volume
 constexpr float kLeastRadius = 0.15f, kMostRadius = 2.5f;  // of a radius at rest, in a solve
 constexpr float kRoom = 0.5f;                // and of its section's mean radius on top
+constexpr float kStill = 2.0e-5f;             // of a matrix' entry (m, or 1) a step: less is no movement
+constexpr float kSettles = 0.5f;             // s of a pose that stays, before the solve goes to rest
+constexpr float kSettlingTime = 0.08f;       // s
 constexpr float kLargestOffset = 0.5f;       // of the muscle's length at rest: beyond, the solve has diverged
 constexpr float kLargestStretch = 8.0f;      // of a radius, by its section's largest at rest
 
@@ -75,6 +80,42 @@ void load(const Musculature& musculature, const MuscleCollision& collision, cons
         work.least[section.first_radius + i] = std::min(kLeastRadius * wanted, kMostRadius * wanted);
         work.most[section.first_radius + i] = std::max(kLeastRadius * wanted, kMostRadius * wanted) + room;
       }
+    }
+  }
+}
+
+// How much of a step's change counts: all of it while the pose changes, and less and less after it has come to rest.
+// What is left of contacts that take turns then dies away.
+float settle(const BoneMatrices& bones, std::uint32_t bone_count, float step, MuscleCollision& collision) {
+  const bool known = collision.pose.size() == bone_count;
+  if (!known) collision.pose.resize(bone_count);
+  const glm::mat3 turn = glm::transpose(glm::mat3(bones.world[0]));
+  bool moved = !known;
+  for (std::uint32_t i = 0; i < bone_count; ++i) {
+    glm::mat4 pose(turn * glm::mat3(bones.world[i]));
+    pose[3] = glm::vec4(turn * glm::vec3(bones.world[i][3] - bones.world[0][3]), 1.0f);
+    for (int column = 0; column < 4; ++column) {
+      const glm::vec4 change = glm::abs(pose[column] - collision.pose[i][column]);
+      moved = moved || std::max({change.x, change.y, change.z}) > kStill;
+    }
+    if (moved) collision.pose[i] = pose;
+  }
+  collision.still = moved ? 0.0f : collision.still + step;
+  return collision.still <= kSettles ? 1.0f : std::exp(-(collision.still - kSettles) / kSettlingTime);
+}
+
+void blend(const CollisionAsset& asset, const MuscleCollision& collision, const BoneMatrices& bones, float amount,
+           CollisionWork& work) {
+  if (amount >= 1.0f) return;
+  for (std::size_t s = 0; s < asset.sections.size(); ++s) {
+    const CollisionSection& section = asset.sections[s];
+    if (work.mobility[s] == 0.0f) continue;
+    const glm::vec3 before = work.driven[s] + glm::mat3(bones.world[section.bone]) *
+                                                  at(collision.offset_x, collision.offset_y, collision.offset_z,
+                                                     section.slot);
+    work.a[s] = glm::mix(before, work.a[s], amount);
+    for (std::uint32_t i = section.first_radius; i < section.first_radius + section.count; ++i) {
+      work.radii[i] = collision.radii[i] + amount * (work.radii[i] - collision.radii[i]);
     }
   }
 }
@@ -153,7 +194,9 @@ void solve_muscles(ecs::View<const Musculature, MuscleCollision, MuscleContacts,
     const CollisionAsset& asset = *collision.asset;
     work.overflow = false;
     load(musculature, collision, *bones, lines, sections, work);
+    const float amount = settle(*bones, musculature.asset->bone_count, time->step, collision);
     solve_collision(asset, collision.settings, bones->world, time->step, work);
+    blend(asset, collision, *bones, amount, work);
     for (std::uint32_t m = 0; m < asset.muscles->size(); ++m) {
       if (is_sound(asset, work, m)) continue;
       fall_back(asset, m, work);
