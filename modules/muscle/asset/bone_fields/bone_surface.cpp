@@ -94,14 +94,18 @@ class Uncover {
     const double size = glm::length(area);
     if (!(size > 0.0)) return kept.push_back(corners);
     const glm::dvec3 step = area * (0.05 * voxel_ / size);
-    int buried = is_buried(middle, step) ? 1 : 0;
-    for (const glm::dvec3& corner : corners) buried += is_buried(0.9 * corner + 0.1 * middle, step) ? 1 : 0;
-    if (buried == 4) return;
-    const glm::dvec3 ab = 0.5 * (corners[0] + corners[1]), bc = 0.5 * (corners[1] + corners[2]),
-                     ca = 0.5 * (corners[2] + corners[0]);
     const double longest = std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                                      glm::distance(corners[2], corners[0])});
-    if (buried == 0 || longest < 2.0 * voxel_) return kept.push_back(corners);
+    const bool small = longest < 3.0 * voxel_;
+    int buried = 0;
+    for (const glm::dvec3& towards : {middle, corners[0], corners[1], corners[2]}) {
+      if (is_buried(0.9 * towards + 0.1 * middle, step)) ++buried;
+      else if (small) return kept.push_back(corners);  // whatever the others say
+    }
+    if (buried == 4) return;
+    if (buried == 0) return kept.push_back(corners);
+    const glm::dvec3 ab = 0.5 * (corners[0] + corners[1]), bc = 0.5 * (corners[1] + corners[2]),
+                     ca = 0.5 * (corners[2] + corners[0]);
     run({corners[0], ab, ca}, kept);
     run({ab, corners[1], bc}, kept);
     run({ca, bc, corners[2]}, kept);
