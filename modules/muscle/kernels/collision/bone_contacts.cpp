@@ -40,7 +40,11 @@ class BoneTest {
     const Bounds& box = work_.row_boxes[r];
     const float radius = 0.5f * glm::distance(box.lower, box.upper);
     const std::uint32_t depths = asset_.row_bone_depths[r * asset_.bones.size() + place_];
-    if (field_.distance(to_bone(0.5f * (box.lower + box.upper))) > radius + margin_ + reach_) return;
+    const glm::vec3 centre = to_bone(0.5f * (box.lower + box.upper));
+    const float reach = radius + margin_ + reach_;
+    if (glm::any(glm::lessThan(centre, field_.lower() - reach)) || glm::any(glm::greaterThan(centre, field_.upper() + reach)))
+      return;
+    if (field_.distance(centre) > reach) return;
     const SampleRow& row = asset_.rows[r];
     const std::uint32_t count = row.sample_count;
     std::array<float, kMaxRowSamples> x, y, z, distance;

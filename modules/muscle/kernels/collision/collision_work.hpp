@@ -51,6 +51,7 @@ struct CollisionWork {
   std::vector<float> mobility;         // inverse mass of a_k; 0 at ends
   std::vector<float> area_target;      // m^2
   std::vector<float> widest;           // m: the largest radius
+  std::vector<std::uint8_t> turned;    // 1: has negative radii
 
   // By MuscleAsset::radius.
   AlignedVector<float> radii, wanted;                    // m; the wanted ones have the target area

@@ -16,6 +16,7 @@ namespace fascicle::muscle {
 namespace {
 
 constexpr float kMostCellsAlong = 8.0f;  // cells are so wide that no segment lies in more along an axis
+constexpr float kSlack = 1.05f;          // of a radius: frames between two sections are mixed
 constexpr float kSmallestCell = 1.0e-4f;  // m
 
 std::uint32_t hash_cell(int x, int y, int z, std::uint32_t mask) {
@@ -54,6 +55,17 @@ void for_each_segment(const CollisionAsset& asset, F&& f) {
   }
 }
 
+// About the angle of (x, y), 0..1 of a turn: within a hundredth.
+float turn_of(float x, float y) {
+  const float ax = std::abs(x), ay = std::abs(y);
+  const float ratio = std::min(ax, ay) / std::max(std::max(ax, ay), 1.0e-12f);
+  float turn = ratio * (0.1785f - 0.0538f * ratio);
+  if (ay > ax) turn = 0.25f - turn;
+  if (x < 0.0f) turn = 0.5f - turn;
+  if (y < 0.0f) turn = 1.0f - turn;
+  return std::min(std::max(turn, 0.0f), 0.9999f);
+}
+
 class MuscleTest {
  public:
   MuscleTest(const CollisionAsset& asset, float margin, float reach, CollisionWork& work)
@@ -63,23 +75,54 @@ class MuscleTest {
     const std::uint32_t other = asset_.sections[segment].muscle;
     if (asset_.muscles_touch[muscle * asset_.muscles->size() + other] == 0) return;
     if (!overlap(work_.row_boxes[r], work_.segment_boxes[segment], margin_ + reach_)) return;
-    const SampleRow& row = asset_.rows[r];
     const glm::vec3 a0 = work_.a[segment], a1 = work_.a[segment + 1];
     const glm::vec3 t0 = work_.t[segment], t1 = work_.t[segment + 1];
-    const float widest = std::max(work_.widest[segment], work_.widest[segment + 1]) + margin_ + reach_;
+    const Bounds& box = work_.row_boxes[r];
+    const glm::vec3 centre = 0.5f * (box.lower + box.upper);
+    const float radius = 0.5f * glm::distance(box.lower, box.upper);
+    if (glm::dot(centre - a0, t0) < -radius || glm::dot(centre - a1, t1) > radius) return;
+    const SampleRow& row = asset_.rows[r];
+    const float* x = &work_.sample_x[row.first_sample];
+    const float* y = &work_.sample_y[row.first_sample];
+    const float* z = &work_.sample_z[row.first_sample];
+    float before[kMaxRowSamples], behind[kMaxRowSamples];  // m, along each section's normal
     for (std::uint32_t i = 0; i < row.sample_count; ++i) {
-      const std::uint32_t s = row.first_sample + i;
-      const glm::vec3 p(work_.sample_x[s], work_.sample_y[s], work_.sample_z[s]);
-      const float before = glm::dot(p - a0, t0), behind = glm::dot(p - a1, t1);
-      if (before < 0.0f || behind >= 0.0f) continue;
-      const float along = before / (before - behind);
-      const glm::vec3 from_centre = p - glm::mix(a0, a1, along);
-      if (glm::dot(from_centre, from_centre) > widest * widest) continue;
-      touch(r, i, segment, other, along, p);
+      before[i] = (x[i] - a0.x) * t0.x + (y[i] - a0.y) * t0.y + (z[i] - a0.z) * t0.z;
+      behind[i] = (x[i] - a1.x) * t1.x + (y[i] - a1.y) * t1.y + (z[i] - a1.z) * t1.z;
+    }
+    for (std::uint32_t i = 0; i < row.sample_count; ++i) {
+      if (before[i] < 0.0f || behind[i] >= 0.0f) continue;
+      const float along = before[i] / (before[i] - behind[i]);
+      const glm::vec3 p(x[i], y[i], z[i]);
+      if (may_touch(segment, along, p - glm::mix(a0, a1, along))) touch(r, i, segment, other, along, p);
     }
   }
 
  private:
+  // False where a point is certainly out of reach of the outline: further from the centre than the radii towards it.
+  bool may_touch(std::uint32_t segment, float along, const glm::vec3& from_centre) const {
+    const float reach = margin_ + reach_;
+    const float widest = std::max(work_.widest[segment], work_.widest[segment + 1]) + reach;
+    const float square = glm::dot(from_centre, from_centre);
+    if (square > widest * widest) return false;
+    if (work_.turned[segment] != 0 || work_.turned[segment + 1] != 0) return true;
+    const glm::vec3 u = glm::mix(work_.u[segment], work_.u[segment + 1], along);
+    const glm::vec3 v = glm::mix(work_.v[segment], work_.v[segment + 1], along);
+    const CollisionSection& section = asset_.sections[segment];
+    const float turn = turn_of(glm::dot(from_centre, u), glm::dot(from_centre, v)) * static_cast<float>(section.count);
+    const std::uint32_t i = static_cast<std::uint32_t>(turn) + section.count - 1;  // the vertex before
+    const float* first = &work_.radii[section.first_radius];
+    const float* second = &work_.radii[asset_.sections[segment + 1].first_radius];
+    float largest = 0.0f;
+    for (std::uint32_t j = 0; j < 4; ++j) {
+      std::uint32_t at = i + j;
+      while (at >= section.count) at -= section.count;
+      largest = std::max(largest, first[at] + along * (second[at] - first[at]));
+    }
+    const float bound = kSlack * largest + reach;
+    return square <= bound * bound;
+  }
+
   void touch(std::uint32_t r, std::uint32_t i, std::uint32_t segment, std::uint32_t other, float along,
              const glm::vec3& p) {
     OutlineSegment outline;

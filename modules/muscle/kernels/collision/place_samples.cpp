@@ -27,15 +27,17 @@ void place_vertices(const CollisionAsset& asset, CollisionWork& work) {
     const CollisionSection& section = asset.sections[s];
     const std::uint32_t first = section.first_radius;
     const glm::vec3 a = work.a[s];
-    float widest = 0.0f;
+    float widest = 0.0f, least = 0.0f;
     for (std::uint32_t i = first; i < first + section.count; ++i) {
       const float r = work.radii[i];
       work.vertex_x[i] = a.x + r * work.dir_x[i];
       work.vertex_y[i] = a.y + r * work.dir_y[i];
       work.vertex_z[i] = a.z + r * work.dir_z[i];
       widest = std::max(widest, std::abs(r));
+      least = std::min(least, r);
     }
     work.widest[s] = widest;
+    work.turned[s] = least < 0.0f;
   }
 }
 

@@ -13,6 +13,7 @@ namespace fascicle::muscle {
 namespace {
 
 constexpr float kFacing = 0.25f;         // an edge whose normal is more along `outward` than this looks the same way
+constexpr float kFar = 3.0e38f;          // m^2
 constexpr float kShortestEdge = 1.0e-6f;  // m
 constexpr float kNearest = 1.0e-5f;      // m: nearer than this an edge's own normal is better than the direction to it
 
@@ -36,30 +37,34 @@ bool find_outline_point(const OutlineSegment& segment, float along, const glm::v
   px[count] = px[0];
   py[count] = py[0];
 
+  // Edge by edge, without a branch, so that the compiler does several at once; an edge that looks the same way as the
+  // point's own surface counts as infinitely far.
   const glm::vec2 out(glm::dot(outward, u), glm::dot(outward, v));
-  float best = 3.0e38f;
+  float squares[kMaxSectionVertices], fractions[kMaxSectionVertices];
   int winding = 0;
-  std::uint32_t edge = count;
-  float fraction = 0.0f;
   for (std::uint32_t i = 0; i < count; ++i) {
     const float ex = px[i + 1] - px[i], ey = py[i + 1] - py[i];
     const float cross = px[i] * ey - py[i] * ex;  // > 0: the point lies on the edge's inner side
-    if (py[i] <= 0.0f) winding += py[i + 1] > 0.0f && cross > 0.0f;
-    else winding -= py[i + 1] <= 0.0f && cross < 0.0f;
-    const float length2 = ex * ex + ey * ey;
-    if (length2 < kShortestEdge * kShortestEdge) continue;
-    const float facing = ey * out.x - ex * out.y;  // the edge's normal is (ey, -ex) / length
-    if (facing > 0.0f && facing * facing > kFacing * kFacing * length2) continue;
-    const float f = std::clamp(-(px[i] * ex + py[i] * ey) / length2, 0.0f, 1.0f);
+    const int up = (py[i] <= 0.0f) & (py[i + 1] > 0.0f) & (cross > 0.0f);
+    const int down = (py[i] > 0.0f) & (py[i + 1] <= 0.0f) & (cross < 0.0f);
+    winding += up - down;
+    const float length2 = std::max(ex * ex + ey * ey, kShortestEdge * kShortestEdge);
+    const float facing = std::max(ey * out.x - ex * out.y, 0.0f);  // the edge's normal is (ey, -ex) / length
+    const float f = std::min(std::max(-(px[i] * ex + py[i] * ey) / length2, 0.0f), 1.0f);
     const float nx = px[i] + f * ex, ny = py[i] + f * ey;
-    const float distance2 = nx * nx + ny * ny;
-    if (distance2 < best) {
-      best = distance2;
+    fractions[i] = f;
+    squares[i] = facing * facing > kFacing * kFacing * length2 ? kFar : nx * nx + ny * ny;
+  }
+  float best = kFar;
+  std::uint32_t edge = count;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (squares[i] < best) {
+      best = squares[i];
       edge = i;
-      fraction = f;
     }
   }
   if (edge == count) return false;
+  const float fraction = fractions[edge];
   const bool inside = winding > 0;
   const float distance = std::sqrt(best);
   if (!inside && distance > reach) return false;
@@ -69,7 +74,7 @@ bool find_outline_point(const OutlineSegment& segment, float along, const glm::v
     const float side = inside ? 1.0f : -1.0f;
     normal = side / distance * glm::vec2(px[edge] + fraction * ex, py[edge] + fraction * ey);
   } else {
-    normal = glm::vec2(ey, -ex) / std::sqrt(ex * ex + ey * ey);
+    normal = glm::vec2(ey, -ex) / std::max(std::sqrt(ex * ex + ey * ey), kShortestEdge);
   }
   found.distance = inside ? -distance : distance;
   found.normal = normal.x * u + normal.y * v;
