@@ -9,6 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "engine/animation/skeleton.hpp"
+#include "engine/content/file_text.hpp"
+#include "modules/muscle/asset/build_muscle_asset.hpp"
+#include "modules/muscle/asset/collision/tag_angle.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/content/content_reloader.hpp"
 #include "modules/muscle/content/tag_place.hpp"
@@ -107,6 +110,72 @@ TEST(CollisionContent, IsWatched) {
   folder.write("legs.collision.json", kTags);
   outcome = reloader.wait();
   ASSERT_TRUE(outcome && outcome->scene);
+}
+
+MuscleDescription bent_muscle() {
+  MuscleDescription muscle;
+  muscle.name = "m";
+  muscle.attachments = {{0, {0, 0, 0}}, {0, {0.02f, -0.1f, 0.03f}}, {0, {-0.02f, -0.2f, 0.05f}}, {0, {0, -0.4f, 0}}};
+  muscle.profile = {{0.0f, 1.0f}, {0.02f, 0.02f}, true};
+  muscle.longitudinal_subdivision = 3;
+  return muscle;
+}
+
+std::shared_ptr<const MuscleAsset> build(const MuscleFit& fit = {}) {
+  const std::vector<MuscleDescription> muscles{bent_muscle()};
+  const std::vector<glm::mat4> bones{glm::mat4(1.0f)};
+  const std::vector<MuscleFit> fits{fit};
+  const auto asset = build_muscle_asset(muscles, bones, fits);
+  EXPECT_TRUE(asset.ok()) << to_text(asset.diagnostics());
+  return *asset;
+}
+
+TEST(TagAngle, IsThetaWhereNoFitHasMovedTheLine) {
+  const auto asset = build();
+  for (std::uint32_t k = 0; k < asset->muscles[0].section_count; ++k) {
+    EXPECT_NEAR(tag_angle_offset(*asset, 0, k), 0.0f, 1e-3f) << k;
+    for (std::uint32_t i = 0; i < 8 && k > 0; ++i) {
+      const SectionTag tag = tag_of(*asset, 0, k, i);
+      EXPECT_NEAR(std::remainder(tag.angle - 0.7853982f * static_cast<float>(i), 6.2831853f), 0.0f, 1e-3f);
+    }
+  }
+  EXPECT_FLOAT_EQ(wrap_angle(-1.0f), 5.2831853f);
+  EXPECT_FLOAT_EQ(wrap_angle(7.0f), 0.7168147f);
+}
+
+// Two centres moved aside turn u_k behind them; a tag further down stays where it was.
+TEST(TagAngle, AKinkDoesNotTurnWhatIsBehindIt) {
+  MuscleFit fit;
+  fit.displacements.assign(25, glm::vec3(0.0f));
+  fit.displacements[9] = {0.05f, 0.0f, 0.0f};
+  fit.displacements[10] = {0.0f, 0.02f, 0.05f};
+  const auto plain = build(), kinked = build(fit);
+  const std::uint32_t k = 20;
+  const auto u = [&](const MuscleAsset& asset) {
+    const std::uint32_t slot = asset.slot(0, k);
+    return glm::vec3(asset.rest_ux[slot], asset.rest_uy[slot], asset.rest_uz[slot]);
+  };
+  EXPECT_GT(glm::distance(u(*plain), u(*kinked)), 0.3f);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const SectionTag tag{0, tag_of(*kinked, 0, k, 0).fraction, tag_of(*plain, 0, k, i).angle};
+    EXPECT_LT(glm::distance(tagged_place(*kinked, tag), rest_vertex(*plain, 0, k, i)), 1e-3f);
+  }
+}
+
+// The example that authors copy, on the walker.
+TEST(CollisionContent, TheReadmesExampleIsSound) {
+  const std::filesystem::path content = std::filesystem::path(FASCICLE_SOURCE_DIR) / "content";
+  const std::string readme = read_text_file(content / "README.md").value();
+  const std::size_t start = readme.rfind("```json\n", readme.find("\"transversals\""));
+  ASSERT_NE(start, std::string::npos);
+  const std::string example = readme.substr(start + 8, readme.find("```", start + 8) - start - 8);
+  const ScratchFolder folder;
+  std::filesystem::copy(content / "characters/walker", folder.path(), std::filesystem::copy_options::recursive);
+  folder.write("walker.collision.json", example);
+  const auto character = load(folder.path() / "walker.character.json");
+  ASSERT_TRUE(character);
+  EXPECT_EQ(character->collision.transversals.size(), 4u);
+  EXPECT_EQ(character->collision.ignored.size(), 2u);
 }
 
 class WalkerCollision : public testing::Test {
