@@ -4,8 +4,9 @@
 //   bone_field/BONE/UM/coherent   the same along short lines, as a muscle's surface asks
 //
 // of `femur` (42,456 triangles; real data, skipped without) and `bar`, a made bone; beside each what else would do:
-// _dense a plain grid over the whole box, _openvdb OpenVDB's own box sampler on the level set, and _reference the nearest
-// triangle and a winding number, which is what all of them stand for. Counters: ns for a point, KiB for the bone.
+// _dense a plain grid over the whole box, _openvdb OpenVDB's own box sampler on the level set, and _reference the
+// nearest triangle and a winding number, which is what all of them stand for.
+// Counters: ns for a point, KiB for the bone.
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
@@ -163,7 +164,9 @@ void ask(benchmark::State& state, const std::string& name, int micrometres, bool
     const DenseGrid dense(grid.state());
     bytes = dense.bytes();
     for (auto _ : state) {
-      for (std::size_t i = 0; i < count; ++i) points.distance[i] = dense.distance(points.x[i], points.y[i], points.z[i]);
+      for (std::size_t i = 0; i < count; ++i) {
+        points.distance[i] = dense.distance(points.x[i], points.y[i], points.z[i]);
+      }
     }
   } else if (way == Way::kOpenVdb) {
     bytes = grid.bytes();
@@ -190,8 +193,9 @@ void ask(benchmark::State& state, const std::string& name, int micrometres, bool
   benchmark::DoNotOptimize(points.distance.data());
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * count));
   state.counters["KiB"] = static_cast<double>(bytes) / 1024.0;
-  state.counters["ns"] = benchmark::Counter(1e-9 * static_cast<double>(count),
-                                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  using benchmark::Counter;
+  state.counters["ns"] =
+      Counter(1e-9 * static_cast<double>(count), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 [[maybe_unused]] const bool registered = [] {

@@ -60,7 +60,7 @@ Original join(const std::vector<TriangleMesh>& meshes) {
   return joined;
 }
 
-// m: how far the field is from the nearest triangle's distance, at points up to a voxel outside of some 2,000 triangles.
+// m: how far the field is from the nearest triangle's distance, at points up to a voxel outside some 2,000 triangles.
 double largest_error(const TriangleMesh& mesh, const BoneField& field) {
   const ClosestPoints nearest(mesh);
   const WindingField winding(mesh);

@@ -1,6 +1,6 @@
 // The fields of a character's bones, for collision: made from the bones' meshes, and kept beside the character file,
 // NAME.bones.vdb next to NAME.character.json, so that loading need not build them again. The file is no content: it may
-// be lost, broken or out of date at no harm but time, and where the folder cannot be written fields are built each time.
+// be lost, broken or out of date at no harm but time; where the folder cannot be written, fields are built each time.
 #pragma once
 
 #include <cstddef>

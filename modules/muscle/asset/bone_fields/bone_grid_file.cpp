@@ -1,5 +1,6 @@
-// The file is an OpenVDB stream and after it, where OpenVDB does not look, a seal: a word to know it by, our version, the
-// stream's length and its hash. OpenVDB's reader trusts what it reads, so nothing reaches it that was not sealed here.
+// The file is an OpenVDB stream and after it, where OpenVDB does not look, a seal: a word to know it by, our version,
+// the stream's length and its hash.
+// OpenVDB's reader trusts what it reads, so nothing reaches it that was not sealed here.
 #include "modules/muscle/asset/bone_fields/bone_grid_file.hpp"
 
 #include <openvdb/io/Stream.h>
@@ -22,7 +23,7 @@ namespace fascicle::muscle {
 namespace {
 
 // Raise it whenever the same meshes would give another grid, or the file another form.
-constexpr std::uint64_t kVersion = 5;
+constexpr std::uint64_t kVersion = 6;
 
 struct Seal {
   std::array<char, 16> word{'f', 'a', 's', 'c', 'i', 'c', 'l', 'e', ' ', 'b', 'o', 'n', 'e', 's', '\n', '\0'};

@@ -39,11 +39,12 @@ std::vector<OpenEdge> find_open_edges(const std::vector<std::uint32_t>& indices)
   std::vector<OpenEdge> open;
   for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
     int balance = 0;
-    for (; last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high; ++last) {
+    const Side& edge = sides[first];
+    for (; last < sides.size() && sides[last].low == edge.low && sides[last].high == edge.high; ++last) {
       balance += sides[last].rises ? 1 : -1;
     }
-    for (; balance > 0; --balance) open.push_back({sides[first].low, sides[first].high});
-    for (; balance < 0; ++balance) open.push_back({sides[first].high, sides[first].low});
+    for (; balance > 0; --balance) open.push_back({edge.low, edge.high});
+    for (; balance < 0; ++balance) open.push_back({edge.high, edge.low});
   }
   return open;
 }
@@ -88,7 +89,7 @@ class Uncover {
   Uncover(const WindingField& winding, double voxel) : winding_(winding), voxel_(voxel) {}
 
   // Appends what is not buried of a triangle, cut where it is so in part.
-  void run(const Corners& corners, std::vector<Corners>& kept) const {
+  void run(const Corners& corners, std::vector<Corners>& kept, int cuts = kMostCuts) const {
     const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double size = glm::length(area);
@@ -96,7 +97,7 @@ class Uncover {
     const glm::dvec3 step = area * (0.05 * voxel_ / size);
     const double longest = std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                                      glm::distance(corners[2], corners[0])});
-    const bool small = longest < 3.0 * voxel_;
+    const bool small = longest < 3.0 * voxel_ || cuts == 0;
     int buried = 0;
     for (const glm::dvec3& towards : {middle, corners[0], corners[1], corners[2]}) {
       if (is_buried(0.9 * towards + 0.1 * middle, step)) ++buried;
@@ -106,13 +107,15 @@ class Uncover {
     if (buried == 0) return kept.push_back(corners);
     const glm::dvec3 ab = 0.5 * (corners[0] + corners[1]), bc = 0.5 * (corners[1] + corners[2]),
                      ca = 0.5 * (corners[2] + corners[0]);
-    run({corners[0], ab, ca}, kept);
-    run({ab, corners[1], bc}, kept);
-    run({ca, bc, corners[2]}, kept);
-    run({ab, bc, ca}, kept);
+    run({corners[0], ab, ca}, kept, cuts - 1);
+    run({ab, corners[1], bc}, kept, cuts - 1);
+    run({ca, bc, corners[2]}, kept, cuts - 1);
+    run({ab, bc, ca}, kept, cuts - 1);
   }
 
  private:
+  static constexpr int kMostCuts = 5;  // whatever the voxel
+
   bool is_buried(const glm::dvec3& point, const glm::dvec3& step) const {
     return winding_.inside(point + step) && winding_.inside(point - step);
   }

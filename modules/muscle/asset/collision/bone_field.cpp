@@ -37,7 +37,7 @@ void spread_gaps(std::vector<float>& squares, std::size_t first, std::size_t ste
     }
     line[static_cast<std::size_t>(i)] = least;
   }
-  for (int i = 0; i < count; ++i) squares[first + static_cast<std::size_t>(i) * step] = line[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < line.size(); ++i) squares[first + i * step] = line[i];
 }
 
 // For each brick the least gap, in bricks, between it and one that the surface may pass through.

@@ -53,8 +53,9 @@ class BoneField {
   void distances(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                  std::span<float> distance) const;
 
-  float band() const { return band_; }   // m: up to here outside, distances are interpolated; beyond, bounded from below
-  float voxel() const { return voxel_; }            // m
+  // m: up to here outside, distances are interpolated; beyond, bounded from below.
+  float band() const { return band_; }
+  float voxel() const { return voxel_; }             // m
   const glm::vec3& lower() const { return lower_; }  // m: the bone's surface lies within this box
   const glm::vec3& upper() const { return upper_; }
   std::size_t brick_count() const { return samples_.size() / kSamplesPerBrick; }  // those with samples

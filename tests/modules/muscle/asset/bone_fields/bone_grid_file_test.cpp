@@ -66,7 +66,8 @@ TEST_F(BoneGridFile, GridsComeBackBitForBit) {
     EXPECT_EQ(before.voxel(), after.voxel());
     EXPECT_EQ(before.brick_count(), after.brick_count());
     for (const glm::vec3& point : test::points_in_box(before.lower() - 0.05f, before.upper() + 0.05f, 20'000)) {
-      ASSERT_EQ(std::bit_cast<std::uint32_t>(before.distance(point)), std::bit_cast<std::uint32_t>(after.distance(point)));
+      const float one = before.distance(point), other = after.distance(point);
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(one), std::bit_cast<std::uint32_t>(other));
     }
   }
 }

@@ -62,9 +62,9 @@ TEST(BoneGrid, SaysWhatCannotBe) {
 TEST(BoneGrid, TurnedTrianglesChangeNothing) {
   const TriangleMesh sound = test::make_sphere(0.02f, 32, 64);
   TriangleMesh turned = sound;
-  for (std::size_t t = 0; t < turned.indices.size() / 3; t += 5) std::swap(turned.indices[3 * t], turned.indices[3 * t + 1]);
+  for (std::size_t i = 0; i < turned.indices.size(); i += 15) std::swap(turned.indices[i], turned.indices[i + 1]);
   TriangleMesh inverted = sound;
-  for (std::size_t t = 0; t < inverted.indices.size() / 3; ++t) std::swap(inverted.indices[3 * t], inverted.indices[3 * t + 1]);
+  for (std::size_t i = 0; i < inverted.indices.size(); i += 3) std::swap(inverted.indices[i], inverted.indices[i + 1]);
   const BoneField right = make_field({&sound, 1});
   for (const TriangleMesh& mesh : {turned, inverted}) {
     const BoneField field = make_field({&mesh, 1});
@@ -85,7 +85,10 @@ TEST(BoneGrid, HolesAreCapped) {
 
 TEST(BoneGrid, ATubeOpenAtBothEndsIsSolid) {
   std::vector<glm::vec2> outline;
-  for (int i = 0; i < 48; ++i) outline.emplace_back(0.012f * std::cos(0.1308997f * i), 0.012f * std::sin(0.1308997f * i));
+  for (int i = 0; i < 48; ++i) {
+    const float angle = 0.1308997f * static_cast<float>(i);
+    outline.emplace_back(0.012f * std::cos(angle), 0.012f * std::sin(angle));
+  }
   const TriangleMesh tube = test::make_wall(outline, -0.04f, 0.04f, 8);
   const BoneField field = make_field({&tube, 1});
   EXPECT_NEAR(field.distance({0.0007f, 0, 0}), -0.0113f, 0.001f);
