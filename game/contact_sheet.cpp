@@ -27,7 +27,7 @@ bool ContactSheet::wants(std::uint64_t frame) const {
   return false;
 }
 
-void ContactSheet::take(Screen& screen, const glm::vec3& offset) {
+void ContactSheet::take(Screen& screen, const glm::vec3& offset, const std::function<void()>& prepare) {
   DrawView view;
   view.camera = camera_;
   view.camera.target += offset;
@@ -36,8 +36,10 @@ void ContactSheet::take(Screen& screen, const glm::vec3& offset) {
     const std::size_t row = static_cast<std::size_t>(side);
     view.camera.yaw = camera_.yaw + glm::two_pi<float>() * static_cast<float>(side) / static_cast<float>(sides_);
     view.skins = true;
+    prepare();
     with_skin_[row].push_back(screen.take_picture(view, kCellWidth, kCellHeight));
     view.skins = false;
+    prepare();
     without_skin_[row].push_back(screen.take_picture(view, kCellWidth, kCellHeight));
   }
 }

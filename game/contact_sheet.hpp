@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "game/screen.hpp"
@@ -17,8 +18,9 @@ class ContactSheet {
 
   // True when frame `frame` (from 1) belongs on the sheet.
   bool wants(std::uint64_t frame) const;
-  // Draws it from all sides. The target follows `offset` (a character that walks away).
-  void take(Screen& screen, const glm::vec3& offset);
+  // Draws it from all sides. The target follows `offset` (a character that walks away). `prepare` is called before
+  // each picture: the renderer's immediate lines and points are of one picture.
+  void take(Screen& screen, const glm::vec3& offset, const std::function<void()>& prepare);
   // Writes the page.
   Result<std::size_t> write(const std::filesystem::path& file) const;
 

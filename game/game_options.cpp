@@ -34,6 +34,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   bool no_draw = false;
 
   CLI::App app("Fascicle: muscles on a walking character. Without arguments: the walker, in a window.", "fascicle");
+  app.footer(
+      "Keys in a window: Space pauses, Period steps, R resets the camera, H hides the overlay; S B M A C T G switch skin,\n"
+      "bones, muscles, action lines, sections, tendons and ground; K shows contacts and tags. E adds a tag by two clicks\n"
+      "(Enter saves, Backspace forgets a click, Y who yields, W sweeps, O both sides). Escape ends.");
   app.add_option("--scene", options.scene, "A name in content/scenes (walker, gait2392, cesium-man) or a scene file");
   app.add_flag("--headless", options.headless, "No window: run, then print the time per system");
   app.add_option("--frames", options.frames, "Steps to run (headless: the scene's own length by default)")
@@ -55,6 +59,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--screenshot", screenshot, "Write a PNG of the last frame, or of one: FILE[@FRAME]");
   app.add_option("--contact-sheet", options.contact_sheet_file,
                  "Write a PNG with the cycle's frames from four sides, with and without skin");
+  app.add_flag("--show-collision", options.show_collision,
+               "Draw contacts, transversal tags and displaced centres, without the skin (in a window: K)");
   app.add_flag("--hash", options.hash, "Print a hash of the last frame's state");
   app.add_flag("--schedule", options.print_schedule, "Print the systems, their order and what they access, and stop");
   app.add_flag("--schedule-dot", options.print_dot, "The same as a graph for Graphviz");
@@ -96,6 +102,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   if (!options.draw && (options.screenshot || !options.contact_sheet_file.empty())) {
     refuse("--screenshot and --contact-sheet need drawing; leave out --no-draw");
   }
+  if (!options.draw && options.show_collision) refuse("--show-collision needs drawing; leave out --no-draw");
   if (!options.draw && !options.headless) {
     refuse("--no-draw leaves nothing to show in a window; add --headless");
   }

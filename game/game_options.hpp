@@ -27,6 +27,7 @@ struct GameOptions {
   std::string report_file;
   std::optional<ScreenshotRequest> screenshot;
   std::string contact_sheet_file;        // four sides by eight frames, with and without skin
+  bool show_collision = false;           // contacts, tags and depths in the picture, and no skin over them
   bool detail = false;                   // statistics per character and muscle
   bool hash = false;
   bool print_schedule = false;

@@ -1,6 +1,7 @@
 #include "game/overlay_model.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "modules/muscle/muscle.hpp"
 
@@ -22,7 +23,8 @@ void OverlayFeed::record_step(const ecs::Schedule& schedule) {
 }
 
 const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& renderer, const DrawView& view,
-                                       float frame_milliseconds, std::size_t shown) {
+                                       float frame_milliseconds, std::size_t shown, const CollisionStats& collision,
+                                       const OverlayTask& task) {
   const FrameTime& time = simulation.loop().time();
   model_ = OverlayModel{};
   model_.title = title_;
@@ -53,32 +55,30 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
   }
   if (details.switches > 0) counts_.push_back({"level switches", static_cast<float>(details.switches)});
   counts_.push_back({"workers", static_cast<float>(simulation.workers().workers())});
+  if (collision.any()) {
+    counts_.push_back({"contacts", static_cast<float>(collision.last().contacts)});
+    counts_.push_back({"pairs touching", static_cast<float>(collision.last().pairs)});
+    counts_.push_back({"touches begun", static_cast<float>(collision.total().began)});
+    counts_.push_back({"ended", static_cast<float>(collision.total().ended)});
+    counts_.push_back({"fallbacks", static_cast<float>(collision.last().fallbacks)});
+    counts_.push_back({"overflows", static_cast<float>(collision.last().overflows)});
+    counts_.push_back({"deepest left, um", 1e6f * collision.last().left});
+  }
 
   switches_.clear();
   for (const ViewSwitch& s : kViewSwitches) switches_.push_back({s.name, view.*s.field, s.shortcut});
   sliders_[0] = {"skin opacity", view.skin_opacity, 0.0f, 1.0f};
 
-  items_.clear();
-  if (shown < simulation.characters().size()) {
-    const SpawnedCharacter& character = simulation.characters()[shown];
-    if (character.musculature != ecs::kNoEntity) {
-      const muscle::MuscleAsset& asset = *character.asset->muscles;
-      const auto& measures = simulation.world().get<muscle::MuscleMeasures>(character.musculature);
-      const auto& lines = simulation.world().get<muscle::ActionLines>(character.musculature);
-      for (std::size_t m = 0; m < asset.size(); ++m) {
-        const ItemState& state = item_state(asset.muscles[m].name);
-        items_.push_back({asset.muscles[m].name,
-                          {measures.length[m] * 1e3f, measures.volume[m] * 1e6f, measures.force[m]},
-                          state.visible,
-                          state.highlighted,
-                          lines.held[m] != 0});
-      }
-    }
-  }
+  read_costs(simulation);
+  list_items(simulation, shown);
   model_.item_heading = "muscle";
-  model_.value_headings[0] = "length mm";
-  model_.value_headings[1] = "volume cm3";
-  model_.value_headings[2] = "max force N";
+  model_.value_headings = {"length mm", "volume cm3", "max force N", "", "", ""};
+  if (collision.any()) {
+    model_.value_headings[3] = "contacts";
+    model_.value_headings[4] = "depth mm";
+    if (simulation.world().resource<CostLedger>().enabled()) model_.value_headings[5] = "solve us";
+  }
+  model_.task = &task;
   model_.systems = systems_;
   model_.gpu = gpu_;
   model_.counts = counts_;
@@ -88,6 +88,45 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
   model_.errors = errors_;
   model_.warnings = warnings_;
   return model_;
+}
+
+// The ledger counts from when it was turned on (--detail); its means move slowly.
+void OverlayFeed::read_costs(const Simulation& simulation) {
+  constexpr int kBuildsBetween = 30;
+  if (builds_++ % kBuildsBetween != 0) return;
+  costs_ = simulation.world().resource<CostLedger>().statistics();
+  std::erase_if(costs_, [](const ItemCost& cost) { return cost.system != "solve_muscles"; });
+}
+
+void OverlayFeed::list_items(Simulation& simulation, std::size_t shown) {
+  items_.clear();
+  if (shown >= simulation.characters().size()) return;
+  const SpawnedCharacter& character = simulation.characters()[shown];
+  if (character.musculature == ecs::kNoEntity) return;
+  const muscle::MuscleAsset& asset = *character.asset->muscles;
+  const auto& measures = simulation.world().get<muscle::MuscleMeasures>(character.musculature);
+  const auto& lines = simulation.world().get<muscle::ActionLines>(character.musculature);
+  const auto* collision = simulation.world().try_get<muscle::MuscleCollision>(character.musculature);
+  const std::string owner = cost_owner(character, shown);
+  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t m = 0; m < asset.size(); ++m) {
+    const std::string& name = asset.muscles[m].name;
+    const ItemState& state = item_state(name);
+    OverlayItem item{name, {measures.length[m] * 1e3f, measures.volume[m] * 1e6f, measures.force[m], kNothing, kNothing,
+                            kNothing}};
+    item.visible = state.visible;
+    item.highlighted = state.highlighted;
+    item.warning = lines.held[m] != 0;
+    if (collision != nullptr && m < collision->cost.size()) {
+      item.values[3] = collision->cost[m];
+      item.values[4] = 1e3f * collision->depth[m];
+    }
+    const auto cost = std::find_if(costs_.begin(), costs_.end(), [&](const ItemCost& c) {
+      return c.item == name && c.owner == owner;
+    });
+    if (cost != costs_.end()) item.values[5] = static_cast<float>(1e3 * cost->mean_ms);
+    items_.push_back(item);
+  }
 }
 
 void OverlayFeed::set_messages(const Diagnostics& diagnostics) {

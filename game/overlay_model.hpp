@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/loop/cost_ledger.hpp"
 #include "engine/render/overlay.hpp"
 #include "engine/render/renderer.hpp"
+#include "game/collision_stats.hpp"
 #include "game/simulation.hpp"
 
 namespace fascicle::game {
@@ -19,7 +21,7 @@ struct ViewSwitch {
   Key key;
   bool DrawView::* field;
 };
-inline constexpr std::array<ViewSwitch, 7> kViewSwitches = {{
+inline constexpr std::array<ViewSwitch, 8> kViewSwitches = {{
     {"skin", "S", Key::s, &DrawView::skins},
     {"bones", "B", Key::b, &DrawView::meshes},
     {"muscles", "M", Key::m, &DrawView::strips},
@@ -27,6 +29,7 @@ inline constexpr std::array<ViewSwitch, 7> kViewSwitches = {{
     {"sections", "C", Key::c, &DrawView::rings},
     {"tendons", "T", Key::t, &DrawView::tendons},
     {"ground", "G", Key::g, &DrawView::ground},
+    {"collision", "K", Key::k, &DrawView::marks},
 }};
 
 class OverlayFeed {
@@ -38,7 +41,8 @@ class OverlayFeed {
   // The model of this frame; what it points to lives until the next call. `shown` is the character whose muscles are
   // listed.
   const OverlayModel& build(Simulation& simulation, const Renderer& renderer, const DrawView& view,
-                            float frame_milliseconds, std::size_t shown);
+                            float frame_milliseconds, std::size_t shown, const CollisionStats& collision,
+                            const OverlayTask& task);
 
   // Messages of a live reload, until the next one or until dismissed.
   void set_messages(const Diagnostics& diagnostics);
@@ -53,6 +57,9 @@ class OverlayFeed {
   ItemState& item_state(const std::string& name) { return item_states_[name]; }
 
  private:
+  void list_items(Simulation& simulation, std::size_t shown);
+  void read_costs(const Simulation& simulation);
+
   std::string title_, subtitle_;
   std::vector<std::string> errors_, warnings_;
   std::vector<float> smoothed_ms_;  // one a system
@@ -60,6 +67,8 @@ class OverlayFeed {
   std::vector<OverlaySwitch> switches_;
   std::array<OverlaySlider, 1> sliders_;
   std::vector<OverlayItem> items_;
+  std::vector<ItemCost> costs_;  // what the ledger last gave of the solve
+  int builds_ = 0;
   std::map<std::string, ItemState> item_states_;
   OverlayModel model_;
 };

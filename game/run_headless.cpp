@@ -64,7 +64,12 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
   DrawView draw_view;
   draw_view.camera = scene_camera(*scene);  // muscles have their level of detail by it, drawn or not
   draw_view.lines = false;
+  draw_view.skins = !options.show_collision;
+  if (options.show_collision) draw_view.lines_through = 0.6f;
   if (screen) view.emplace(simulation, *screen->renderer);
+  const auto mark = [&] {  // immediate marks are of one picture
+    if (options.show_collision) view->mark_collision();
+  };
 
   const std::uint64_t frames = options.frames.value_or(static_cast<std::uint64_t>(scene->frames));
   std::optional<ContactSheet> sheet;
@@ -80,15 +85,17 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
     recorder.record_step(simulation);
     draw_view.camera.target = scene->camera.target + simulation.travel();
     if (screen) {
+      mark();
       const std::int64_t start = monotonic_ns();
       screen->renderer->draw(draw_view);
       recorder.record_draw(start, monotonic_ns(), *screen->renderer);
     }
     recorder.end_frame(simulation);
     if (screen && recorder.wants_picture(simulation, frame == frames)) {
+      mark();
       recorder.write_picture(screen->take_picture(draw_view, options.width, options.height));
     }
-    if (sheet && sheet->wants(frame)) sheet->take(*screen, simulation.travel());
+    if (sheet && sheet->wants(frame)) sheet->take(*screen, simulation.travel(), mark);
     progress.show(frame);
   }
   progress.done();

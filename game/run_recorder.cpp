@@ -38,11 +38,10 @@ RunRecorder::RunRecorder(const GameOptions& options, Simulation& simulation, std
 
 void RunRecorder::announce_items(Simulation& simulation) {
   if (!options_.detail) return;
-  std::size_t number = 0;
-  for (const SpawnedCharacter& character : simulation.characters()) {
-    ++number;
+  for (std::size_t i = 0; i < simulation.characters().size(); ++i) {
+    const SpawnedCharacter& character = simulation.characters()[i];
     if (character.musculature == ecs::kNoEntity) continue;
-    muscle::list_costs(simulation.world(), character.musculature, fmt::format("{} {}", character.asset->name, number));
+    muscle::list_costs(simulation.world(), character.musculature, cost_owner(character, i));
   }
   simulation.world().resource<CostLedger>().set_enabled(true);
 }
@@ -56,6 +55,7 @@ void RunRecorder::record_step(Simulation& simulation) {
   const auto timings = simulation.schedule().timings();
   stats_.record(timings);
   if (trace_) trace_->record(timings);
+  collision_.record(simulation, options_.detail);
   if (!options_.report_file.empty()) {
     report_.begin_frame();
     simulation.record_metrics(report_);
@@ -117,13 +117,14 @@ int RunRecorder::finish(Simulation& simulation) {
   }
   stats_.set_memory(simulation.world().memory_by_component());
   if (options_.detail) stats_.add_rows(simulation.world().resource<CostLedger>().statistics());
+  if (collision_.any()) stats_.set_note("collision", collision_.summary());
   if (!options_.stats_file.empty()) written &= explain(stats_.write(options_.stats_file));
   if (trace_) written &= explain(trace_->write(options_.trace_file));
   if (!options_.report_file.empty()) {
     written &= explain(write_text_atomically(options_.report_file,
                                              report_.to_json(simulation.scene().name, simulation.hash())));
   }
-  if (options_.headless) std::fputs(stats_.to_table().c_str(), stdout);
+  if (options_.headless) std::fputs((stats_.to_table() + collision_.to_table()).c_str(), stdout);
   if (options_.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(simulation.hash()));
   return written ? kExitOk : kExitNoOutput;
 }

@@ -9,6 +9,7 @@
 #include "engine/loop/frame_stats.hpp"
 #include "engine/loop/trace.hpp"
 #include "engine/render/renderer.hpp"
+#include "game/collision_stats.hpp"
 #include "game/game_options.hpp"
 #include "game/penetration_report.hpp"
 #include "game/report.hpp"
@@ -38,10 +39,12 @@ class RunRecorder {
   int finish(Simulation& simulation);
 
   const FrameStats& stats() const { return stats_; }
+  const CollisionStats& collision() const { return collision_; }
 
  private:
   const GameOptions& options_;
   FrameStats stats_;
+  CollisionStats collision_;
   std::optional<Trace> trace_;
   Report report_;
   PenetrationReport penetration_;

@@ -6,16 +6,22 @@
 #include <fmt/format.h>
 
 #include "engine/ecs/monotonic_clock.hpp"
+#include "engine/render/pick.hpp"
 #include "game/overlay_model.hpp"
+#include "game/pick_place.hpp"
 #include "game/run_recorder.hpp"
 #include "game/scene_view.hpp"
 #include "game/screen.hpp"
 #include "game/simulation.hpp"
+#include "game/tag_editor.hpp"
 #include "modules/muscle/content/content_reloader.hpp"
+#include "modules/muscle/content/save_collision.hpp"
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
 namespace {
+
+const std::uint32_t kPickColour = pack_colour({1.0f, 1.0f, 1.0f, 1.0f});
 
 class WindowRun {
  public:
@@ -33,6 +39,8 @@ class WindowRun {
         recorder_(options, simulation_, options.frames.value_or(0)) {
     view_.camera = scene_camera(simulation_.scene());
     view_.lines = false;
+    view_.marks = options.show_collision;
+    view_.skins = !options.show_collision;
   }
 
   int run() {
@@ -68,14 +76,18 @@ class WindowRun {
       recorder_.record_step(simulation_);
     }
 
-    if (!screen_.overlay->wants_mouse()) apply_input(input, glm::vec2(size), view_.camera);
+    const bool over_overlay = show_overlay_ && screen_.overlay->wants_mouse();
+    if (!over_overlay) apply_input(input, glm::vec2(size), view_.camera);
     if (!screen_.overlay->wants_keyboard()) handle_keys(input);
+    const auto click = clicks_.update(input, over_overlay);
+    if (click && editor_.active()) pick(*click, glm::vec2(size));
     view_.alpha = simulation_.loop().paused() ? 1.0f : simulation_.loop().alpha();
     const std::int64_t draw_start = monotonic_ns();
-    screen_.renderer->draw(view_);
+    screen_.renderer->draw(mark(view_));
     if (show_overlay_) {
-      const OverlayModel& model = feed_.build(simulation_, *screen_.renderer, view_,
-                                              static_cast<float>(seconds * 1e3), shown_character_);
+      const OverlayModel& model =
+          feed_.build(simulation_, *screen_.renderer, view_, static_cast<float>(seconds * 1e3), shown_character_,
+                      recorder_.collision(), editor_.task());
       apply(screen_.overlay->draw(model, input, static_cast<float>(seconds), *screen_.renderer));
     }
     screen_.renderer->present(size.x, size.y);
@@ -85,6 +97,42 @@ class WindowRun {
       recorder_.write_picture(screen_.renderer->read_image());
     }
     screen_.window->swap();
+  }
+
+  // The view as it is drawn, with this picture's marks handed over.
+  DrawView mark(DrawView view) {
+    constexpr float kMarksThrough = 0.6f;  // what is behind muscles matters as much
+    if (view.marks) scene_view_.mark_collision();
+    for (const PickedPlace& place : editor_.places()) {
+      if (editor_.active() && place.bone < 0) scene_view_.mark_place(place.character, place.tag, kPickColour);
+    }
+    if (view.marks || editor_.active()) view.lines_through = kMarksThrough;
+    view.marks |= editor_.active();
+    return view;
+  }
+
+  void pick(const glm::vec2& pixel, const glm::vec2& size) {
+    const PickFilter filter{.muscles = view_.strips, .bones = view_.meshes, .is_hidden = [this](const std::string& name) {
+                              return !feed_.item_state(name).visible;
+                            }};
+    if (const auto place = pick_place(simulation_, filter, ray_through(view_.camera, pixel, size))) editor_.pick(*place);
+  }
+
+  void edit(TagCommand command) {
+    if (command == TagCommand::kSave) save_tag();
+    else if (command == TagCommand::kLeave) editor_.set_active(false);
+    else editor_.apply(command);
+  }
+
+  // The reload of the changed file brings the tag into the simulation.
+  void save_tag() {
+    const auto tag = editor_.tag();
+    if (!tag) return;
+    const muscle::CharacterAsset& asset = *simulation_.characters()[editor_.places()[0].character].asset;
+    const auto saved = muscle::save_transversal(asset.files.front(), asset, *tag, editor_.mirror());
+    feed_.set_messages(saved.diagnostics());
+    if (saved) editor_.set_saved(saved->file.string());
+    else editor_.set_failed();
   }
 
   void poll_reload() {
@@ -100,6 +148,9 @@ class WindowRun {
     scene_view_.attach();
     recorder_.announce_items(simulation_);
     apply_item_states();
+    std::vector<const muscle::CharacterAsset*> assets;
+    for (const SpawnedCharacter& character : simulation_.characters()) assets.push_back(character.asset.get());
+    editor_.rename(assets);
     // The new things show nothing until a step has written them.
     scene_view_.begin_step();
     simulation_.refresh();
@@ -107,6 +158,10 @@ class WindowRun {
   }
 
   void handle_keys(const InputState& input) {
+    if (input.was_pressed(Key::e)) editor_.set_active(!editor_.active());
+    if (editor_.active()) {
+      if (const auto command = TagEditor::command_of(input)) return edit(*command);
+    }
     if (input.was_pressed(Key::space)) toggle_pause();
     if (input.was_pressed(Key::period)) simulation_.loop().request_single_step();
     if (input.was_pressed(Key::h)) show_overlay_ = !show_overlay_;
@@ -125,6 +180,7 @@ class WindowRun {
       const ViewSwitch& s = kViewSwitches[static_cast<std::size_t>(actions.switched)];
       view_.*s.field = !(view_.*s.field);
     }
+    if (actions.task_button >= 0) edit(TagEditor::command_of_button(actions.task_button));
     if (actions.slider == 0) view_.skin_opacity = actions.slider_value;
     if (actions.dismiss_messages) feed_.clear_messages();
     if (actions.hide_overlay) show_overlay_ = false;
@@ -161,6 +217,8 @@ class WindowRun {
   SceneView scene_view_;
   OverlayFeed feed_;
   RunRecorder recorder_;
+  TagEditor editor_;
+  ClickTracker clicks_;
   DrawView view_;
   bool show_overlay_ = true;
   std::size_t shown_character_ = 0;

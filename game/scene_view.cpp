@@ -4,6 +4,7 @@
 
 #include "engine/animation/skinning_systems.hpp"
 #include "engine/parallel/for_range.hpp"
+#include "modules/muscle/asset/collision/collision_asset.hpp"
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
@@ -133,6 +134,39 @@ void SceneView::release() {
   mesh_order_.clear();
   muscles_.clear();
   meshes_.clear();
+}
+
+void SceneView::mark_collision() {
+  const ecs::World& world = simulation_.world();
+  marks_.lines.clear();
+  marks_.points.clear();
+  for (const SpawnedCharacter& character : simulation_.characters()) {
+    if (character.musculature == ecs::kNoEntity) continue;
+    const auto* collision = world.try_get<muscle::MuscleCollision>(character.musculature);
+    const auto* contacts = world.try_get<muscle::MuscleContacts>(character.musculature);
+    if (collision == nullptr || contacts == nullptr) continue;
+    const auto& lines = world.get<muscle::ActionLines>(character.musculature);
+    const auto& sections = world.get<muscle::CrossSections>(character.musculature);
+    const std::vector<glm::mat4>& bones = world.get<BoneMatrices>(character.entity).world;
+    muscle::mark_transversals(*collision, lines, sections, character.asset->collision.transversals, bones, marks_);
+    muscle::mark_displacements(*collision, lines, bones, marks_);
+    muscle::mark_contacts(*contacts, marks_);
+  }
+  muscle::draw_marks(marks_, renderer_);
+}
+
+void SceneView::mark_place(std::size_t character, const muscle::SectionTag& tag, std::uint32_t colour) {
+  if (character >= simulation_.characters().size()) return;
+  const ecs::Entity entity = simulation_.characters()[character].musculature;
+  const auto* musculature = simulation_.world().try_get<muscle::Musculature>(entity);
+  if (musculature == nullptr || tag.muscle >= musculature->asset->size()) return;
+  const muscle::TaggedVertex found = muscle::find_tagged_vertex(*musculature->asset, tag);
+  marks_.lines.clear();
+  marks_.points.clear();
+  muscle::mark_section(*musculature->asset, simulation_.world().get<muscle::ActionLines>(entity),
+                       simulation_.world().get<muscle::CrossSections>(entity), tag.muscle, found.section, found.vertex,
+                       colour, marks_);
+  muscle::draw_marks(marks_, renderer_);
 }
 
 OrbitCamera scene_camera(const muscle::SceneAsset& scene) {

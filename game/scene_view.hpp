@@ -13,6 +13,7 @@
 #include "engine/ecs/view.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/simulation.hpp"
+#include "modules/muscle/systems/5_present/draw_collision.hpp"
 #include "modules/muscle/systems/5_present/draw_muscles.hpp"
 
 namespace fascicle::game {
@@ -57,6 +58,11 @@ class SceneView {
   void release();
   void attach();
 
+  // Into the next picture only: what collision does on all characters, as it is after the last step.
+  void mark_collision();
+  // The section and vertex that a tag names, on one of Simulation::characters().
+  void mark_place(std::size_t character, const muscle::SectionTag& tag, std::uint32_t colour);
+
   // Of one muscle, on all characters of its asset, at every level of detail: hidden or highlighted.
   void set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags);
 
@@ -76,6 +82,7 @@ class SceneView {
   std::map<const TriangleMesh*, MeshHandle> meshes_;
   std::vector<StripTopologyHandle> topologies_;
   std::vector<MeshHandle> mesh_order_;
+  muscle::CollisionMarks marks_;
 };
 
 }  // namespace fascicle::game

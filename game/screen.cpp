@@ -28,7 +28,10 @@ Image Screen::take_picture(const DrawView& view, int width, int height) {
   const int own_width = renderer->width(), own_height = renderer->height();
   const int factor = info.software ? 2 : 1;
   renderer->resize(factor * width, factor * height);
-  renderer->draw(view);
+  DrawView scaled = view;
+  scaled.line_width *= static_cast<float>(factor);
+  scaled.point_scale *= static_cast<float>(factor);
+  renderer->draw(scaled);
   Image image = renderer->read_image();
   renderer->resize(own_width, own_height);
   return factor == 1 ? image : shrink(image, factor);

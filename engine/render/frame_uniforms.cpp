@@ -41,7 +41,7 @@ FrameUniforms make_frame_uniforms(const DrawView& view, float aspect, int shadow
   frame.skin_colour = glm::vec4(view.skin_colour, std::clamp(view.skin_opacity, 0.0f, 1.0f));
   frame.target = glm::vec4(camera.target, view.back_faces ? 1.0f : 0.0f);
   frame.options = glm::vec4(view.tendons ? 1.0f : 0.0f, std::clamp(view.lines_through, 0.0f, 1.0f),
-                            shadow_size > 0 ? 1.0f / static_cast<float>(shadow_size) : 0.0f, 0.0f);
+                            shadow_size > 0 ? 1.0f / static_cast<float>(shadow_size) : 0.0f, view.point_scale);
   return frame;
 }
 

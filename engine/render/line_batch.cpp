@@ -63,16 +63,18 @@ void LineBatch::prepare(const StepClock& clock) {
   if (!points_.empty()) point_buffer_.upload(std::as_bytes(std::span(points_)));
 }
 
-std::uint32_t LineBatch::draw_lines(const StepClock& clock) {
+std::uint32_t LineBatch::draw_sets(const StepClock& clock) {
   set_constant_attributes();
-  std::uint32_t calls = sets_.draw(set_array_.name(), GL_LINE_STRIP, clock);
-  if (!lines_.empty()) {
-    glVertexArrayVertexBuffer(line_array_.name(), 0, line_buffer_.name(), 0, sizeof(LineVertex));
-    glBindVertexArray(line_array_.name());
-    glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(lines_.size()));
-    ++calls;
-  }
-  return calls;
+  return sets_.draw(set_array_.name(), GL_LINE_STRIP, clock);
+}
+
+std::uint32_t LineBatch::draw_lines() {
+  if (lines_.empty()) return 0;
+  set_constant_attributes();
+  glVertexArrayVertexBuffer(line_array_.name(), 0, line_buffer_.name(), 0, sizeof(LineVertex));
+  glBindVertexArray(line_array_.name());
+  glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(lines_.size()));
+  return 1;
 }
 
 std::uint32_t LineBatch::draw_points() {

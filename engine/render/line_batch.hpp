@@ -17,10 +17,12 @@ class LineBatch {
   void add_point(const glm::vec3& at, std::uint32_t colour, float size);
 
   void prepare(const StepClock& clock);
-  bool empty() const { return sets_.empty() && lines_.empty() && points_.empty(); }
+  bool has_sets() const { return !sets_.empty(); }
+  bool has_lines() const { return !lines_.empty(); }    // immediate ones
   bool has_points() const { return !points_.empty(); }
   // The program is bound by the caller. Return the draw calls issued.
-  std::uint32_t draw_lines(const StepClock& clock);
+  std::uint32_t draw_sets(const StepClock& clock);
+  std::uint32_t draw_lines();
   std::uint32_t draw_points();
   // Forgets the immediate lines and points.
   void clear_immediate();

@@ -3,11 +3,14 @@
 // an OverlayModel goes in, OverlayActions come out. Works headless too.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -36,13 +39,27 @@ struct OverlaySlider {
   float high = 1.0f;
 };
 
-// A row of the item list. Values in the units that the model's headings state.
+// A row of the item list. Values in the units that the model's headings state; one that is not a number is left out.
+inline constexpr std::size_t kOverlayValues = 6;
 struct OverlayItem {
   std::string_view name;
-  float values[3] = {0.0f, 0.0f, 0.0f};
+  float values[kOverlayValues] = {};
   bool visible = true;
   bool highlighted = false;
   bool warning = false;  // painted amber
+};
+
+struct OverlayButton {
+  std::string name;
+  const char* shortcut = "";  // shown beside it
+  bool enabled = true;
+};
+
+// What the user is in the middle of: lines of text and buttons. Without a title it isn't shown.
+struct OverlayTask {
+  std::string title;
+  std::vector<std::string> lines;
+  std::vector<OverlayButton> buttons;
 };
 
 struct OverlayModel {
@@ -61,8 +78,9 @@ struct OverlayModel {
   std::span<const OverlaySwitch> switches;
   std::span<const OverlaySlider> sliders;
   const char* item_heading = "item";
-  const char* value_headings[3] = {"", "", ""};  // an empty one leaves the column out
+  std::array<const char*, kOverlayValues> value_headings = {"", "", "", "", "", ""};  // up to the first empty one
   std::span<const OverlayItem> items;
+  const OverlayTask* task = nullptr;
   std::span<const std::string> errors;    // shown in red until gone from the model
   std::span<const std::string> warnings;
 };
@@ -77,6 +95,7 @@ struct OverlayActions {
   float slider_value = 0.0f;
   int item_highlighted = -1;      // item clicked
   int item_visibility = -1;       // item whose visibility to flip
+  int task_button = -1;           // button of the task that was pressed
   bool dismiss_messages = false;
   bool hide_overlay = false;
 };

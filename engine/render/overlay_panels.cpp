@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <imgui.h>
 
@@ -9,6 +10,9 @@ namespace fascicle {
 namespace {
 
 constexpr float kSmoothing = 0.06f;  // weight of a new value in the shown average
+constexpr float kNameWidth = 190.0f;   // pixels of the item list's columns
+constexpr float kValueWidth = 78.0f;
+constexpr int kValueCharacters = 9;
 const ImVec4 kRed(1.00f, 0.45f, 0.40f, 1.0f);
 const ImVec4 kAmber(1.00f, 0.78f, 0.30f, 1.0f);
 const ImVec4 kGrey(0.62f, 0.66f, 0.70f, 1.0f);
@@ -133,6 +137,12 @@ void lay_out_switches(const OverlayModel& model, OverlayActions& actions) {
   }
 }
 
+std::size_t count_values(const OverlayModel& model) {
+  std::size_t count = 0;
+  while (count < kOverlayValues && model.value_headings[count][0] != '\0') ++count;
+  return count;
+}
+
 bool matches(std::string_view name, std::string_view filter) {
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -140,7 +150,8 @@ bool matches(std::string_view name, std::string_view filter) {
   return std::search(name.begin(), name.end(), filter.begin(), filter.end(), same) != name.end();
 }
 
-void lay_out_item(const OverlayItem& item, int index, int value_columns, OverlayActions& actions) {
+void lay_out_item(const OverlayItem& item, int index, std::size_t value_columns,
+                 OverlayActions& actions) {
   ImGui::PushID(index);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -157,9 +168,10 @@ void lay_out_item(const OverlayItem& item, int index, int value_columns, Overlay
   ImGui::SetCursorPos(at);
   text(item.name);
   if (item.warning) ImGui::PopStyleColor();
-  for (int column = 0; column < value_columns; ++column) {
+  for (std::size_t column = 0; column < value_columns; ++column) {
     ImGui::TableNextColumn();
-    ImGui::Text("%10.2f", static_cast<double>(item.values[column]));
+    const float value = item.values[column];
+    if (!std::isnan(value)) ImGui::Text("%*.2f", kValueCharacters, static_cast<double>(value));
   }
   ImGui::PopID();
 }
@@ -167,14 +179,13 @@ void lay_out_item(const OverlayItem& item, int index, int value_columns, Overlay
 void lay_out_items(const OverlayModel& model, OverlayMemory& memory, OverlayActions& actions) {
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##filter", "filter by name", memory.filter.data(), memory.filter.size());
-  int value_columns = 0;
-  while (value_columns < 3 && model.value_headings[value_columns][0] != '\0') ++value_columns;
+  const std::size_t value_columns = count_values(model);
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-  if (!ImGui::BeginTable("##items", 1 + value_columns, kFlags)) return;
+  if (!ImGui::BeginTable("##items", 1 + static_cast<int>(value_columns), kFlags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(model.item_heading, ImGuiTableColumnFlags_WidthStretch);
-  for (int column = 0; column < value_columns; ++column) {
-    ImGui::TableSetupColumn(model.value_headings[column], ImGuiTableColumnFlags_WidthFixed, 88.0f);
+  for (std::size_t column = 0; column < value_columns; ++column) {
+    ImGui::TableSetupColumn(model.value_headings[column], ImGuiTableColumnFlags_WidthFixed, kValueWidth);
   }
   ImGui::TableHeadersRow();
   const std::string_view filter(memory.filter.data());
@@ -205,6 +216,30 @@ void lay_out_messages(const OverlayModel& model, float left, float width, float 
     lines(model.warnings, kAmber);
     ImGui::PopTextWrapPos();
     if (ImGui::SmallButton("dismiss")) actions.dismiss_messages = true;
+  }
+  ImGui::End();
+}
+
+// In the lower right corner, below the item list.
+void lay_out_task(const OverlayTask& task, float width, float height, float margin, OverlayActions& actions) {
+  ImGui::SetNextWindowPos(ImVec2(width - margin, height - margin), ImGuiCond_Always, ImVec2(1.0f, 1.0f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(300.0f, 0.0f), ImVec2(std::max(0.5f * width, 300.0f), 0.36f * height));
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+  if (ImGui::Begin("##task", nullptr, kFlags)) {
+    text(task.title);
+    for (const std::string& line : task.lines) text(line);
+    for (std::size_t i = 0; i < task.buttons.size(); ++i) {
+      const OverlayButton& button = task.buttons[i];
+      if (i % 2 != 0) ImGui::SameLine();
+      ImGui::PushID(static_cast<int>(i));
+      ImGui::BeginDisabled(!button.enabled);
+      if (ImGui::Button(button.name.c_str())) actions.task_button = static_cast<int>(i);
+      ImGui::EndDisabled();
+      ImGui::SameLine();
+      ImGui::TextColored(kGrey, "%s", button.shortcut);
+      ImGui::PopID();
+    }
   }
   ImGui::End();
 }
@@ -248,12 +283,14 @@ OverlayActions lay_out_overlay(const OverlayModel& model, float width, float hei
   ImGui::End();
 
   if (!model.items.empty()) {
-    constexpr float kItemWidth = 460.0f;
-    ImGui::SetNextWindowPos(ImVec2(width - kItemWidth - kMargin, kMargin), ImGuiCond_Always);
-    ImGui::SetNextWindowSize(ImVec2(kItemWidth, std::min(0.62f * height, tallest)), ImGuiCond_Always);
+    const float values_width = kValueWidth * static_cast<float>(count_values(model));
+    const float item_width = std::max(kNameWidth + values_width + 30.0f, 460.0f);
+    ImGui::SetNextWindowPos(ImVec2(width - item_width - kMargin, kMargin), ImGuiCond_Always);
+    ImGui::SetNextWindowSize(ImVec2(item_width, std::min(0.62f * height, tallest)), ImGuiCond_Always);
     if (ImGui::Begin("##item list", nullptr, kPanel)) lay_out_items(model, memory, actions);
     ImGui::End();
   }
+  if (model.task != nullptr && !model.task->title.empty()) lay_out_task(*model.task, width, height, kMargin, actions);
   lay_out_messages(model, kMainWidth + 2.0f * kMargin, width, height, actions);
   return actions;
 }

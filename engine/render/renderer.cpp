@@ -222,8 +222,9 @@ void Renderer::State::draw_ground(const DrawView& view) {
 
 void Renderer::State::draw_lines(const DrawView& view) {
   const bool rings = view.rings && view.strips;
-  const bool any_lines = view.lines && !lines.empty();
-  if (!rings && !any_lines) return;
+  const bool sets = view.lines && lines.has_sets();
+  const bool marks = view.marks && (lines.has_lines() || lines.has_points());
+  if (!rings && !sets && !marks) return;
   timer.begin_pass("lines");
   const auto set_width = [this](float pixels) {
     glLineWidth(std::clamp(pixels, line_widths[0], std::max(line_widths[0], line_widths[1])));
@@ -233,13 +234,14 @@ void Renderer::State::draw_lines(const DrawView& view) {
     glUseProgram(programs.strip_ring.name());
     stats.draw_calls += strips.draw_rings(clock);
   }
-  if (any_lines) {
+  if (sets || marks) {
     set_width(view.line_width);
     glEnable(GL_BLEND);
-    const auto draw_both = [this](const GlProgram& line, const GlProgram& point) {
+    const auto draw_both = [&](const GlProgram& line, const GlProgram& point) {
       glUseProgram(line.name());
-      stats.draw_calls += lines.draw_lines(clock);
-      if (!lines.has_points()) return;
+      if (sets) stats.draw_calls += lines.draw_sets(clock);
+      if (marks) stats.draw_calls += lines.draw_lines();
+      if (!marks || !lines.has_points()) return;
       glUseProgram(point.name());
       stats.draw_calls += lines.draw_points();
     };

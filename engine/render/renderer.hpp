@@ -47,9 +47,11 @@ struct DrawView {
   bool meshes = true;
   bool skins = true;
   float skin_opacity = 0.3f;  // 1: opaque; 0: not drawn
-  bool lines = true;
+  bool lines = true;           // the line sets that follow the steps
+  bool marks = true;           // immediate lines and points
   float lines_through = 0.35f;  // opacity of lines where something is in front of them
   float line_width = 1.5f;     // pixels
+  float point_scale = 1.0f;    // of immediate points' sizes
   bool ground = true;
   bool shadow = true;
   bool back_faces = false;     // paints faces that are clockwise on screen magenta: shows inverted surfaces

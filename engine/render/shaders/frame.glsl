@@ -9,7 +9,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 mesh_colour;       // linear
   vec4 skin_colour;       // linear; w: opacity
   vec4 target;            // what the camera looks at (m); w: 1 when back faces are painted
-  vec4 options;           // x: tendons told apart; y: opacity of hidden lines; z: shadow map texel; w: unused
+  vec4 options;           // x: tendons told apart; y: opacity of hidden lines; z: shadow map texel; w: scale of points
 } frame;
 
 // sRGB colour packed in four bytes, R lowest, to linear.

@@ -14,5 +14,5 @@ void main() {
   vec3 world = interpolated ? mix(previous_position, current_position, frame.eye_alpha.w) : current_position;
   line_colour = vec4(pow(vertex_colour.rgb, vec3(2.2)), vertex_colour.a);
   gl_Position = frame.view_projection * vec4(world, 1.0);
-  gl_PointSize = point_size;
+  gl_PointSize = point_size * frame.options.w;
 }

@@ -181,6 +181,29 @@ TEST_F(MeshDraw, LineSetsFollowTheStepsAndImmediateLinesLastOneFrame) {
   EXPECT_EQ(measure(draw(view)).pixels, 0);
 }
 
+TEST_F(MeshDraw, MarksAreSwitchedApartFromLineSetsAndPointsScale) {
+  make_renderer(test_options());
+  DrawView view = test_view();
+  view.lines_through = 0.0f;
+  const auto mark = [&] {
+    renderer_->add_line({0.0025f, -0.2f, 0.0f}, {0.0025f, 0.2f, 0.0f}, pack_colour({0, 1, 0, 1}));
+    renderer_->add_point({-0.2f, 0.0f, 0.0f}, pack_colour({1, 0, 0, 1}), 9.0f);
+  };
+  view.lines = false;
+  mark();
+  const int shown = measure(draw(view)).pixels;
+  EXPECT_GT(shown, 80);
+  view.point_scale = 3.0f;
+  mark();
+  EXPECT_NEAR(measure(draw(view)).pixels - shown, 8.0 * 0.785 * 81.0, 60.0) << "a disc of 27 pixels, not of 9";
+  view.lines = true;
+  view.marks = false;
+  mark();
+  EXPECT_EQ(measure(draw(view)).pixels, 0);
+  view.marks = true;
+  EXPECT_EQ(measure(draw(view)).pixels, 0) << "they were of the picture that did not show them";
+}
+
 TEST_F(MeshDraw, HiddenLinesShowFaintly) {
   make_renderer(test_options());
   const MeshHandle mesh = renderer_->add_mesh(make_cube(true));

@@ -1,5 +1,8 @@
 #include "engine/render/overlay.hpp"
 
+#include <cmath>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -135,6 +138,51 @@ TEST_F(OverlayTest, ClicksBecomeActions) {
   EXPECT_THAT(switched, testing::Each(true));
   EXPECT_THAT(highlighted, testing::Each(true));
   EXPECT_THAT(hidden, testing::Each(true));
+}
+
+TEST_F(OverlayTest, ATasksEnabledButtonsAreActions) {
+  OverlayModel model = make_model();
+  OverlayTask task;
+  task.lines = {"1  soleus_r", "2  click another"};
+  task.buttons = {{"Save", "Enter", false}, {"Forget", "Backspace"}, {"Leave", "Escape"}};
+  model.task = &task;
+  for (int i = 0; i < 2; ++i) frame(model, {-1, -1}, false);
+  EXPECT_TRUE(is_background(renderer_->read_image().pixel(980, 580))) << "a task without a title isn't shown";
+  task.title = "Tag";
+  const auto press_all = [&] {
+    std::vector<bool> pressed(task.buttons.size(), false);
+    for (float y = 520.0f; y < 590.0f; y += 11.0f) {
+      for (const float x : {700.0f, 710.0f, 790.0f, 800.0f, 810.0f}) {
+        frame(model, {x, y}, false);
+        frame(model, {x, y}, true);
+        const int button = frame(model, {x, y}, false).task_button;
+        if (button >= 0) pressed[static_cast<std::size_t>(button)] = true;
+      }
+    }
+    return pressed;
+  };
+  EXPECT_THAT(press_all(), testing::ElementsAre(false, true, true));
+  task.buttons[0].enabled = true;
+  EXPECT_THAT(press_all(), testing::ElementsAre(true, true, true));
+}
+
+TEST_F(OverlayTest, ValuesThatAreNoNumbersAreLeftOut) {
+  OverlayModel model = make_model();
+  OverlayItem items[] = {{"soleus_r", {1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f}}};
+  model.items = items;
+  model.value_headings = {"a", "b", "c", "d", "e", "f"};
+  const auto text_pixels = [&] {  // in the last column's first row
+    for (int i = 0; i < 3; ++i) frame(model, {-1, -1}, false);
+    const Image image = renderer_->read_image();
+    int bright = 0;
+    for (int y = 60; y < 90; ++y) {
+      for (int x = 910; x < 980; ++x) bright += image.pixel(x, y)[0] > 180;
+    }
+    return bright;
+  };
+  EXPECT_GT(text_pixels(), 10);
+  items[0].values[5] = std::nanf("");
+  EXPECT_EQ(text_pixels(), 0);
 }
 
 TEST_F(OverlayTest, TakesTheMouseOverItsPanelsOnly) {
