@@ -37,11 +37,10 @@ class BoneTest {
         reach_(reach), work_(work) {}
 
   void test(std::uint32_t r) {
-    const Bounds& box = work_.row_boxes[r];
-    const float radius = 0.5f * glm::distance(box.lower, box.upper);
+    const RowDisc& disc = work_.row_discs[r];
     const std::uint32_t depths = asset_.row_bone_depths[r * asset_.bones.size() + place_];
-    const glm::vec3 centre = to_bone(0.5f * (box.lower + box.upper));
-    const float reach = radius + margin_ + reach_;
+    const glm::vec3 centre = to_bone(disc.centre);
+    const float reach = disc.radius + margin_ + reach_;
     if (glm::any(glm::lessThan(centre, field_.lower() - reach)) || glm::any(glm::greaterThan(centre, field_.upper() + reach)))
       return;
     if (field_.distance(centre) > reach) return;

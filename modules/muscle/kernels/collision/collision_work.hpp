@@ -34,6 +34,7 @@ struct Contact {
   float inverse_mass = 0.0f;           // of the constraint: 1 / (sum of w |dC|^2)
   float found = 0.0f;                  // m: C where it was found; negative: too deep
   float bias = 0.0f;                   // m, <= 0: what C may still be in this substep
+  float value = 0.0f;                  // m: C when it was last looked at
   float push = 0.0f;                   // what it has pushed in this solve (its multiplier), >= 0
   std::uint32_t row = 0, sample = 0;   // which: of the row
   float allowed = 0.0f;                // m: depth that there is at rest
@@ -42,6 +43,12 @@ struct Contact {
 
 struct Bounds {
   glm::vec3 lower{0.0f}, upper{0.0f};  // m, world
+};
+
+// A row of samples as a flat disc about its centre.
+struct RowDisc {
+  glm::vec3 centre{0.0f}, normal{0.0f};      // m, world; unit
+  float radius = 0.0f, thickness = 0.0f;     // m: no sample is further from the centre, or from the plane
 };
 
 struct CollisionWork {
@@ -65,6 +72,7 @@ struct CollisionWork {
 
   // Boxes of the segments (by the section before), rows and muscles.
   std::vector<Bounds> segment_boxes, row_boxes, muscle_boxes;
+  std::vector<RowDisc> row_discs;
 
   // The broad phase's grid: hashed cells, each a run of segments.
   float cell = 0.0f;                   // m

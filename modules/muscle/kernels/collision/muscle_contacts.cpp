@@ -66,6 +66,12 @@ float turn_of(float x, float y) {
   return std::min(std::max(turn, 0.0f), 0.9999f);
 }
 
+// How far a row's samples reach from their centre in a direction.
+float reach_along(const RowDisc& disc, const glm::vec3& direction) {
+  const float along = glm::dot(disc.normal, direction);
+  return disc.radius * std::sqrt(std::max(1.0f - along * along, 0.0f)) + disc.thickness * std::abs(along);
+}
+
 class MuscleTest {
  public:
   MuscleTest(const CollisionAsset& asset, float margin, float reach, CollisionWork& work)
@@ -77,10 +83,13 @@ class MuscleTest {
     if (!overlap(work_.row_boxes[r], work_.segment_boxes[segment], margin_ + reach_)) return;
     const glm::vec3 a0 = work_.a[segment], a1 = work_.a[segment + 1];
     const glm::vec3 t0 = work_.t[segment], t1 = work_.t[segment + 1];
-    const Bounds& box = work_.row_boxes[r];
-    const glm::vec3 centre = 0.5f * (box.lower + box.upper);
-    const float radius = 0.5f * glm::distance(box.lower, box.upper);
-    if (glm::dot(centre - a0, t0) < -radius || glm::dot(centre - a1, t1) > radius) return;
+    const RowDisc& disc = work_.row_discs[r];
+    const float enter = glm::dot(disc.centre - a0, t0), leave = glm::dot(disc.centre - a1, t1);
+    if (enter < -reach_along(disc, t0) || leave > reach_along(disc, t1)) return;
+    const float widest = std::max(work_.widest[segment], work_.widest[segment + 1]) + margin_ + reach_ + disc.radius;
+    const float middle = enter > 0.0f && leave < 0.0f ? enter / (enter - leave) : (enter > 0.0f ? 1.0f : 0.0f);
+    const glm::vec3 apart = disc.centre - glm::mix(a0, a1, middle);
+    if (glm::dot(apart, apart) > widest * widest) return;
     const SampleRow& row = asset_.rows[r];
     const float* x = &work_.sample_x[row.first_sample];
     const float* y = &work_.sample_y[row.first_sample];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "modules/muscle/asset/muscle_asset.hpp"
 
@@ -21,6 +22,25 @@ Bounds bounds_of(const float* x, const float* y, const float* z, std::uint32_t c
 }
 
 Bounds join(const Bounds& a, const Bounds& b) { return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)}; }
+
+RowDisc disc_of(const SampleRow& row, const float* x, const float* y, const float* z, const CollisionWork& work) {
+  const std::uint32_t next = row.weight > 0.0f ? row.section + 1 : row.section;
+  RowDisc disc;
+  disc.centre = glm::mix(work.a[row.section], work.a[next], row.weight);
+  const glm::vec3 normal = glm::mix(work.t[row.section], work.t[next], row.weight);
+  const float length = glm::length(normal);
+  if (length > 0.1f) disc.normal = normal / length;
+  const glm::vec3 c = disc.centre, n = disc.normal;
+  float furthest = 0.0f, thickest = 0.0f;
+  for (std::uint32_t i = 0; i < row.sample_count; ++i) {
+    const float dx = x[i] - c.x, dy = y[i] - c.y, dz = z[i] - c.z;
+    furthest = std::max(furthest, dx * dx + dy * dy + dz * dz);
+    thickest = std::max(thickest, std::abs(dx * n.x + dy * n.y + dz * n.z));
+  }
+  disc.radius = std::sqrt(furthest);
+  disc.thickness = length > 0.1f ? thickest : disc.radius;
+  return disc;
+}
 
 void place_vertices(const CollisionAsset& asset, CollisionWork& work) {
   for (std::size_t s = 0; s < asset.sections.size(); ++s) {
@@ -91,6 +111,7 @@ void place_samples(const CollisionAsset& asset, CollisionWork& work) {
       z[i] = mix(work.vertex_z);
     }
     work.row_boxes[r] = bounds_of(x, y, z, row.sample_count);
+    work.row_discs[r] = disc_of(row, x, y, z, work);
   }
 }
 

@@ -121,7 +121,8 @@ void find_contacts(const CollisionAsset& asset, const CollisionSettings& setting
 
 void project_contacts(CollisionWork& work) {
   for (Contact& contact : work.contacts) {
-    const float wanted = contact.push - (contact_value(contact, work) - contact.bias) * contact.inverse_mass;
+    contact.value = contact_value(contact, work);
+    const float wanted = contact.push - (contact.value - contact.bias) * contact.inverse_mass;
     const float push = std::max(wanted, 0.0f);
     if (push != contact.push) move_sample(contact, push - contact.push, work);
     contact.push = push;
@@ -131,7 +132,7 @@ void project_contacts(CollisionWork& work) {
 void hold_areas(const CollisionAsset& asset, CollisionWork& work) {
   std::fill(work.pressed.begin(), work.pressed.end(), std::uint8_t{0});
   for (const Contact& contact : work.contacts) {
-    if (contact.push > 0.0f || contact_value(contact, work) < kHolds) hold_radii(contact, work);
+    if (contact.push > 0.0f || contact.value < kHolds) hold_radii(contact, work);
   }
   for (std::size_t s = 0; s < asset.sections.size(); ++s) {
     const CollisionSection& section = asset.sections[s];
@@ -149,10 +150,11 @@ void hold_areas(const CollisionAsset& asset, CollisionWork& work) {
 }
 
 void begin_substep(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
-                   CollisionWork& work) {
-  refresh_bone_contacts(asset, bones, settings.bone_margin, work);
+                   bool refresh, CollisionWork& work) {
+  if (refresh) refresh_bone_contacts(asset, bones, settings.bone_margin, work);
   for (Contact& contact : work.contacts) {
-    contact.bias = std::min(contact_value(contact, work) + kMostPush, 0.0f);
+    contact.value = contact_value(contact, work);
+    contact.bias = std::min(contact.value + kMostPush, 0.0f);
     contact.push = 0.0f;
   }
 }
@@ -166,7 +168,7 @@ void solve_collision(const CollisionAsset& asset, const CollisionSettings& setti
   const float substep = step / static_cast<float>(settings.substeps);
   for (std::uint32_t i = 0; i < settings.substeps; ++i) {
     relax_shape(asset, settings, substep, work);
-    begin_substep(asset, settings, bones, work);
+    begin_substep(asset, settings, bones, i > 0, work);
     for (std::uint32_t k = 0; k < settings.iterations; ++k) {
       hold_areas(asset, work);
       project_contacts(work);

@@ -26,7 +26,7 @@ void relax_shape(const CollisionAsset& asset, const CollisionSettings& settings,
 void find_contacts(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
                    CollisionWork& work);
 void begin_substep(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
-                   CollisionWork& work);
+                   bool refresh, CollisionWork& work);
 void project_contacts(CollisionWork& work);
 void hold_areas(const CollisionAsset& asset, CollisionWork& work);
 
