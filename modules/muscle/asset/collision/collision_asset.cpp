@@ -212,7 +212,7 @@ void allow_rest_overlaps(const CollisionDescription& description, std::span<cons
   CollisionWork work;
   load_rest(asset, work);
   work.contacts.reserve(std::size_t{16} * asset.samples.size() + 1024);
-  find_contacts(asset, description.settings, rest_bones, work);
+  find_contacts(asset, description.settings, rest_bones, work, true);
 
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>> overlaps;  // by row and other muscle
   for (const Contact& contact : work.contacts) {

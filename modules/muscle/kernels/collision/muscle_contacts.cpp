@@ -74,8 +74,8 @@ float reach_along(const RowDisc& disc, const glm::vec3& direction) {
 
 class MuscleTest {
  public:
-  MuscleTest(const CollisionAsset& asset, float margin, float reach, CollisionWork& work)
-      : asset_(asset), margin_(margin), reach_(reach), work_(work) {}
+  MuscleTest(const CollisionAsset& asset, float margin, float reach, bool at_rest, CollisionWork& work)
+      : asset_(asset), margin_(margin), reach_(reach), at_rest_(at_rest), work_(work) {}
 
   void test(std::uint32_t r, std::uint32_t muscle, std::uint32_t segment) {
     const std::uint32_t other = asset_.sections[segment].muscle;
@@ -144,9 +144,12 @@ class MuscleTest {
       outline.u[k] = work_.u[segment + k];
       outline.v[k] = work_.v[segment + k];
     }
-    OutlinePoint point;
-    if (!find_outline_point(outline, along, p, sample_normal(asset_, work_, r, i), margin_ + reach_, point)) return;
+    // What overlaps at rest has no side that it came from: the nearest way out is the best there is.
     const float allowed = allowed_depth(r, i, other);
+    const bool any_side = at_rest_ || allowed > 0.0f;
+    const glm::vec3 outward = any_side ? glm::vec3(0.0f) : sample_normal(asset_, work_, r, i);
+    OutlinePoint point;
+    if (!find_outline_point(outline, along, p, outward, margin_ + reach_, point)) return;
     const float value = point.distance + allowed - margin_;
     if (value > reach_) return;
     Contact contact;
@@ -169,6 +172,7 @@ class MuscleTest {
 
   const CollisionAsset& asset_;
   float margin_, reach_;
+  bool at_rest_;
   CollisionWork& work_;
 };
 
@@ -204,9 +208,9 @@ void fill_grid(const CollisionAsset& asset, CollisionWork& work) {
   });
 }
 
-void find_muscle_contacts(const CollisionAsset& asset, float margin, float reach, CollisionWork& work) {
+void find_muscle_contacts(const CollisionAsset& asset, float margin, float reach, bool at_rest, CollisionWork& work) {
   const std::uint32_t mask = cell_mask(asset);
-  MuscleTest muscle_test(asset, margin, reach, work);
+  MuscleTest muscle_test(asset, margin, reach, at_rest, work);
   std::fill(work.stamps.begin(), work.stamps.end(), 0xffffffffu);
   for (std::uint32_t m = 0; m + 1 < asset.first_row.size(); ++m) {
     for (std::uint32_t r = asset.first_row[m]; r < asset.first_row[m + 1]; ++r) {

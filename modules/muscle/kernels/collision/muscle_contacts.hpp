@@ -11,7 +11,7 @@ namespace fascicle::muscle {
 void fill_grid(const CollisionAsset& asset, CollisionWork& work);
 
 // Appends contacts for samples less than `reach` (m) away from being as deep as they are at rest, less `margin` (m).
-// After fill_grid.
-void find_muscle_contacts(const CollisionAsset& asset, float margin, float reach, CollisionWork& work);
+// After fill_grid. `at_rest`: all samples are looked at as those are that overlap at rest.
+void find_muscle_contacts(const CollisionAsset& asset, float margin, float reach, bool at_rest, CollisionWork& work);
 
 }  // namespace fascicle::muscle

@@ -28,7 +28,7 @@ struct OutlinePoint {
 
 // The nearest point of the outline at fraction `along` from the first section to the second, for a point in that plane
 // whose own surface looks towards `outward` (unit): only edges that face it are asked, so that a point that has come
-// through more than half of a thin muscle is still sent back to where it came from. False where there is none within
+// through more than half of a thin muscle is still sent back to where it came from; zero asks all edges. False where there is none within
 // `reach` (m) outside.
 bool find_outline_point(const OutlineSegment& segment, float along, const glm::vec3& point, const glm::vec3& outward,
                         float reach, OutlinePoint& found);

@@ -111,12 +111,12 @@ void relax_shape(const CollisionAsset& asset, const CollisionSettings& settings,
 }
 
 void find_contacts(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
-                   CollisionWork& work) {
+                   CollisionWork& work, bool at_rest) {
   work.contacts.clear();
   place_samples(asset, work);
   find_bone_contacts(asset, bones, settings.bone_margin, kReach, work);
   fill_grid(asset, work);
-  find_muscle_contacts(asset, settings.muscle_margin, kReach, work);
+  find_muscle_contacts(asset, settings.muscle_margin, kReach, at_rest, work);
 }
 
 void project_contacts(CollisionWork& work) {

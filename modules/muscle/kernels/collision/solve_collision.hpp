@@ -24,7 +24,7 @@ void solve_collision(const CollisionAsset& asset, const CollisionSettings& setti
 // The parts.
 void relax_shape(const CollisionAsset& asset, const CollisionSettings& settings, float step, CollisionWork& work);
 void find_contacts(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
-                   CollisionWork& work);
+                   CollisionWork& work, bool at_rest = false);
 void begin_substep(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
                    bool refresh, CollisionWork& work);
 void project_contacts(CollisionWork& work);
