@@ -13,7 +13,7 @@ namespace fascicle::game {
 // What can be picked: what is seen.
 struct PickFilter {
   bool muscles = true, bones = true;
-  std::function<bool(const std::string& muscle)> is_hidden;  // may be empty
+  std::function<bool(const std::string& muscle)> is_hidden = {};  // may be empty
 };
 
 // The nearest; of muscles the place as it was drawn after the last step.

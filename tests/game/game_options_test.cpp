@@ -28,6 +28,7 @@ TEST(GameOptions, WrongArgumentsLeaveWithTheUsageStatus) {
       {"--headless", "--no-draw", "--screenshot", "p.png"},
       {"--headless", "--no-draw", "--contact-sheet", "p.png"},
       {"--no-draw"},
+      {"--headless", "--no-draw", "--show-collision"},
       {"--headless", "--frames", "10", "--screenshot", "p.png@11"},
       {"--width", "1"},
       {"--contact-sheet", "sheet.png"},
@@ -52,6 +53,12 @@ TEST(GameOptions, DefaultIsTheWalkerInAWindow) {
   EXPECT_TRUE(parsed.options.draw);
   EXPECT_EQ(parsed.options.copies, 1);
   EXPECT_FALSE(parsed.options.frames.has_value());
+}
+
+TEST(GameOptions, CollisionIsShownOnRequest) {
+  EXPECT_FALSE(parse({}).options.show_collision);
+  EXPECT_TRUE(parse({"--show-collision"}).options.show_collision);
+  EXPECT_TRUE(parse({"--headless", "--show-collision", "--screenshot", "p.png"}).options.show_collision);
 }
 
 TEST(GameOptions, LevelsAreBySizeOrByNumber) {
