@@ -9,7 +9,8 @@ set_target_properties(fascicle_muscle PROPERTIES EXPORT_NAME muscle)
 install(TARGETS fascicle_flags fascicle_muscle ${libraries} EXPORT fascicle-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY engine modules DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fascicle FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY content/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fascicle/content)
+# The bones' fields beside a character are a cache of this machine.
+install(DIRECTORY content/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fascicle/content PATTERN "*.bones.vdb*" EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 foreach(program fascicle fascicle-check fascicle-cook fascicle-bench)
   if(TARGET ${program})
