@@ -118,7 +118,7 @@ void add_collision(ecs::World& world, ecs::Entity musculature,
     lay_out(*levels[level], collision);
     world.resource<CollisionScratch>().reserve(*levels[level]);
   }
-  collision.pose.reserve(levels.front()->muscles->bone_count);
+  collision.pose.reserve(levels.front()->bone_count);
   for (AlignedVector<float>& carried : collision.carried) carried.reserve(collision.radii.size());
   MuscleContacts contacts;
   const std::size_t pairs = kContactsPerMuscle * levels.front()->muscles->size();
@@ -138,6 +138,7 @@ void detach_muscle(ecs::World& world, ecs::Entity entity) {
   if (musculature == nullptr) return;
   musculature->muscles[muscle.index] = ecs::kNoEntity;
   musculature->attached[muscle.index] = 0;
+  if (MuscleCollision* collision = world.try_get<MuscleCollision>(muscle.musculature)) collision->still = 0.0f;
   const ActionLines& lines = world.get<ActionLines>(muscle.musculature);
   const CrossSections& sections = world.get<CrossSections>(muscle.musculature);
   const Tendons& tendons = world.get<Tendons>(muscle.musculature);

@@ -57,6 +57,7 @@ void lay_out(const CollisionAsset& asset, MuscleCollision& collision) {
   collision.depth.assign(asset.muscles->size(), 0.0f);
   collision.cost.assign(asset.muscles->size(), 0.0f);
   collision.morph = 0.0f;
+  collision.still = 0.0f;
   collision.asset = &asset;
 }
 

@@ -28,9 +28,11 @@ struct MuscleCollision {
   AlignedVector<float> radii;                         // m, by MuscleAsset::radius
   AlignedVector<float> rest_radii;                    // m: the shape that they come back to
   float morph = 0.0f;                                 // that rest_radii are for
-  // How long the pose has been the same, and which that is: bone to the first one's frame.
+  // How long the pose and the settings have been the same, and which these are: bone to the first one's frame. What
+  // else changes a muscle's rest sets `still` to 0.
   float still = 0.0f;  // s
   std::vector<glm::mat4> pose;
+  CollisionSettings solved;
   AlignedVector<float> carried[4];                    // scratch of a change of level
 
   // Written by the solve, for measuring; by CollisionAsset::sections.

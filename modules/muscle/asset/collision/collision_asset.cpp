@@ -184,6 +184,7 @@ void load_rest(const CollisionAsset& asset, CollisionWork& work) {
     work.t[s] = glm::cross(work.u[s], work.v[s]);
     work.mobility[s] = 1.0f;
   }
+  std::fill(work.absent.begin(), work.absent.end(), std::uint8_t{0});
   std::copy(muscles.rest_radii.begin(), muscles.rest_radii.end(), work.radii.begin());
   place_directions(asset, work);
 }
@@ -316,6 +317,10 @@ std::shared_ptr<const CollisionAsset> build_collision_asset(std::shared_ptr<cons
     if (!fields[bone]) continue;
     asset->bones.push_back(static_cast<std::int32_t>(bone));
     asset->fields.push_back(fields[bone]);
+  }
+  asset->bone_count = asset->muscles->bone_count;
+  if (!asset->bones.empty()) {
+    asset->bone_count = std::max(asset->bone_count, static_cast<std::uint32_t>(asset->bones.back()) + 1);
   }
   list_sections(*asset);
   list_rows(description.settings.sample_spacing, *asset);

@@ -87,6 +87,7 @@ struct CollisionAsset {
   std::vector<float> rest_line;                    // m, by muscle: length of the drawn line at rest
   std::vector<float> rest_belly;                   // m, by muscle: of its part that is no tendon
 
+  std::uint32_t bone_count = 0;                    // matrices that the character must have
   std::vector<std::int32_t> bones;                 // those that have a field
   std::vector<std::shared_ptr<const BoneField>> fields;  // of `bones`
   std::vector<std::uint8_t> row_touches_bone;      // row * bones + place in `bones`: 1

@@ -69,6 +69,8 @@ struct CollisionSettings {
   float sample_spacing = 0.012f;      // m: between sections further apart than this the surface is tested too
   float bone_voxel = 0.002f;          // m: of the bones' fields
   bool keep_volume = true;            // belly sections widen as their muscle shortens
+
+  friend bool operator==(const CollisionSettings&, const CollisionSettings&) = default;
 };
 
 struct CollisionDescription {

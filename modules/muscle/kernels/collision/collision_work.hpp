@@ -60,6 +60,8 @@ struct CollisionWork {
   std::vector<float> widest;           // m: the largest radius
   std::vector<std::uint8_t> turned;    // 1: has negative radii
 
+  std::vector<std::uint8_t> absent;    // by muscle: 1: detached, touches nobody
+
   // By MuscleAsset::radius.
   AlignedVector<float> radii, wanted;                    // m; the wanted ones have the target area
   AlignedVector<float> least, most;                      // m

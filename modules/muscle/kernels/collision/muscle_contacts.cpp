@@ -79,7 +79,7 @@ class MuscleTest {
 
   void test(std::uint32_t r, std::uint32_t muscle, std::uint32_t segment) {
     const std::uint32_t other = asset_.sections[segment].muscle;
-    if (asset_.muscles_touch[muscle * asset_.muscles->size() + other] == 0) return;
+    if (asset_.muscles_touch[muscle * asset_.muscles->size() + other] == 0 || work_.absent[other] != 0) return;
     if (!overlap(work_.row_boxes[r], work_.segment_boxes[segment], margin_ + reach_)) return;
     const glm::vec3 a0 = work_.a[segment], a1 = work_.a[segment + 1];
     const glm::vec3 t0 = work_.t[segment], t1 = work_.t[segment + 1];
@@ -213,6 +213,7 @@ void find_muscle_contacts(const CollisionAsset& asset, float margin, float reach
   MuscleTest muscle_test(asset, margin, reach, at_rest, work);
   std::fill(work.stamps.begin(), work.stamps.end(), 0xffffffffu);
   for (std::uint32_t m = 0; m + 1 < asset.first_row.size(); ++m) {
+    if (work.absent[m] != 0) continue;
     for (std::uint32_t r = asset.first_row[m]; r < asset.first_row[m + 1]; ++r) {
       for_each_cell(work.row_boxes[r], work.cell, mask, [&](std::uint32_t cell) {
         for (std::uint32_t place = work.cell_starts[cell]; place < work.cell_starts[cell + 1]; ++place) {

@@ -71,6 +71,7 @@ void change_level(const CollisionAsset& to, MuscleCollision& collision) {
   collision.target_area.assign(to.sections.size(), 0.0f);
   collision.area.assign(to.sections.size(), 0.0f);
   collision.morph = 0.0f;
+  collision.still = 0.0f;
   collision.asset = &to;
 }
 
@@ -99,6 +100,7 @@ void morph_rest_radii(const Musculature& musculature, MuscleCollision& collision
     collision.rest_radii = from;
   }
   collision.morph = musculature.morph;
+  collision.still = 0.0f;
 }
 
 }  // namespace

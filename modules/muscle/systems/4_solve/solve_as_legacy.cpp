@@ -58,7 +58,7 @@ void solve_as_legacy(ecs::View<const Musculature, LegacyCollision, MuscleCollisi
     const bool wanted = collision.settings.enabled && collision.settings.mode == CollisionMode::kLegacy;
     if (!wanted || !has_bones(*musculature.asset, bones)) return;
     carry_deformation(musculature, collision);
-    if (collision.asset == nullptr) return;
+    if (collision.asset == nullptr || bones->world.size() < collision.asset->bone_count) return;
     displace_lines(collision, bones->world, lines);
     const auto level = std::find_if(collision.levels.begin(), collision.levels.end(),
                                     [&](const auto& asset) { return asset.get() == collision.asset; });

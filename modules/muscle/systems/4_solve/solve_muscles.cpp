@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "engine/ecs/each_in_parallel.hpp"
 #include "modules/muscle/asset/collision/collision_asset.hpp"
@@ -56,6 +57,7 @@ void load(const Musculature& musculature, const MuscleCollision& collision, cons
                                                                kMostBelly * asset.rest_belly[m])
                             : 1.0f;
     const bool held = is_held(musculature, lines, m);
+    work.absent[m] = musculature.attached[m] == 0;
     for (std::uint32_t s = asset.first_section[m]; s <= last; ++s) {
       const CollisionSection& section = asset.sections[s];
       const std::uint32_t slot = section.slot;
@@ -86,17 +88,19 @@ void load(const Musculature& musculature, const MuscleCollision& collision, cons
 
 // How much of a step's change counts: all of it while the pose changes, and less and less after it has come to rest.
 // What is left of contacts that take turns then dies away.
-float settle(const BoneMatrices& bones, std::uint32_t bone_count, float step, MuscleCollision& collision) {
-  const bool known = collision.pose.size() == bone_count;
+float settle(const BoneMatrices& bones, float step, MuscleCollision& collision) {
+  const std::uint32_t bone_count = collision.asset->bone_count;
+  const bool known = collision.pose.size() == bone_count && collision.solved == collision.settings;
   if (!known) collision.pose.resize(bone_count);
+  collision.solved = collision.settings;
   const glm::mat3 turn = glm::transpose(glm::mat3(bones.world[0]));
   bool moved = !known;
   for (std::uint32_t i = 0; i < bone_count; ++i) {
     glm::mat4 pose(turn * glm::mat3(bones.world[i]));
     pose[3] = glm::vec4(turn * glm::vec3(bones.world[i][3] - bones.world[0][3]), 1.0f);
     for (int column = 0; column < 4; ++column) {
-      const glm::vec4 change = glm::abs(pose[column] - collision.pose[i][column]);
-      moved = moved || std::max({change.x, change.y, change.z}) > kStill;
+      const glm::vec3 change = glm::abs(glm::vec3(pose[column] - collision.pose[i][column]));
+      moved = moved || !glm::all(glm::lessThanEqual(change, glm::vec3(kStill)));  // NaN moves, and so does its end
     }
     if (moved) collision.pose[i] = pose;
   }
@@ -168,9 +172,15 @@ void store(const CollisionWork& work, const BoneMatrices& bones, MuscleCollision
   }
 }
 
-// Settings that no longer ask for collision: the shape at rest, once.
-void release(MuscleCollision& collision, CrossSections& sections) {
+// Settings that no longer ask for collision: the shape at rest, once, and whatever touched has ended.
+void release(MuscleCollision& collision, MuscleContacts& contacts, CrossSections& sections) {
+  contacts.began.clear();
+  contacts.ended.clear();
+  std::swap(contacts.now, contacts.ended);
   if (collision.asset == nullptr) return;
+  std::fill(collision.depth.begin(), collision.depth.end(), 0.0f);
+  std::fill(collision.cost.begin(), collision.cost.end(), 0.0f);
+  collision.contact_count = 0;
   if (sections.radii.size() == collision.rest_radii.size()) sections.radii = collision.rest_radii;
   collision.asset = nullptr;
 }
@@ -185,16 +195,16 @@ void solve_muscles(ecs::View<const Musculature, MuscleCollision, MuscleContacts,
                          MuscleContacts& contacts, ActionLines& lines, CrossSections& sections) {
     const ScopedCost cost(costs.row(entity), ScopedCost::kWhole);
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(musculature.character);
-    if (!collision.settings.enabled) return release(collision, sections);
+    if (!collision.settings.enabled) return release(collision, contacts, sections);
     if (collision.settings.mode == CollisionMode::kLegacy || !has_bones(*musculature.asset, bones)) return;
     carry_deformation(musculature, collision);
-    if (collision.asset == nullptr) return;
+    if (collision.asset == nullptr || bones->world.size() < collision.asset->bone_count) return;
     const CollisionScratch::Loan loan(*scratch);
     CollisionWork& work = *loan;
     const CollisionAsset& asset = *collision.asset;
     work.overflow = false;
     load(musculature, collision, *bones, lines, sections, work);
-    const float amount = settle(*bones, musculature.asset->bone_count, time->step, collision);
+    const float amount = settle(*bones, time->step, collision);
     solve_collision(asset, collision.settings, bones->world, time->step, work);
     blend(asset, collision, *bones, amount, work);
     for (std::uint32_t m = 0; m < asset.muscles->size(); ++m) {

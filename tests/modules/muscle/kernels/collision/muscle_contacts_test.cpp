@@ -102,7 +102,7 @@ void find(test::CollisionState& state, float reach) {
   state.work.contacts.clear();
   state.work.overflow = false;
   fill_grid(*state.asset, state.work);
-  find_muscle_contacts(*state.asset, 0.0f, reach, state.work);
+  find_muscle_contacts(*state.asset, 0.0f, reach, false, state.work);
 }
 
 TEST(MuscleContacts, NothingWhereNothingTouches) {
