@@ -72,10 +72,10 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
   read_costs(simulation);
   list_items(simulation, shown);
   model_.item_heading = "muscle";
-  model_.value_headings = {"length mm", "volume cm3", "max force N", "", "", ""};
+  model_.value_headings = {"length mm", "vol cm3", "force N", "", "", ""};
   if (collision.any()) {
     model_.value_headings[3] = "contacts";
-    model_.value_headings[4] = "depth mm";
+    model_.value_headings[4] = "deep mm";
     if (simulation.world().resource<CostLedger>().enabled()) model_.value_headings[5] = "solve us";
   }
   model_.task = &task;

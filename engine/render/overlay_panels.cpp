@@ -10,9 +10,9 @@ namespace fascicle {
 namespace {
 
 constexpr float kSmoothing = 0.06f;  // weight of a new value in the shown average
-constexpr float kNameWidth = 190.0f;   // pixels of the item list's columns
-constexpr float kValueWidth = 78.0f;
-constexpr int kValueCharacters = 9;
+constexpr float kNameWidth = 180.0f;   // pixels of the item list's columns
+constexpr float kValueWidth = 64.0f;
+constexpr int kValueCharacters = 8;
 const ImVec4 kRed(1.00f, 0.45f, 0.40f, 1.0f);
 const ImVec4 kAmber(1.00f, 0.78f, 0.30f, 1.0f);
 const ImVec4 kGrey(0.62f, 0.66f, 0.70f, 1.0f);
