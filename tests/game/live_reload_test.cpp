@@ -11,6 +11,7 @@
 #include "game/simulation.hpp"
 #include "modules/muscle/content/content_reloader.hpp"
 #include "modules/muscle/muscle.hpp"
+#include "tests/support/copy_folder.hpp"
 
 namespace fascicle::game {
 namespace {
@@ -44,7 +45,7 @@ class LiveReload : public testing::Test {
     const fs::path content = fs::path(FASCICLE_SOURCE_DIR) / "content";
     fs::copy(content / "scenes", folder_ / "scenes", fs::copy_options::recursive);
     fs::copy(content / "schema", folder_ / "schema", fs::copy_options::recursive);
-    fs::copy(content / "characters" / "walker", folder_ / "characters" / "walker", fs::copy_options::recursive);
+    test::copy_character_folder(content / "characters" / "walker", folder_ / "characters" / "walker");
   }
   void TearDown() override { fs::remove_all(folder_); }
 

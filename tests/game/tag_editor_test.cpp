@@ -14,6 +14,7 @@
 #include "modules/muscle/content/content_reloader.hpp"
 #include "modules/muscle/content/save_collision.hpp"
 #include "modules/muscle/muscle.hpp"
+#include "tests/support/copy_folder.hpp"
 #include "tests/support/surface_rays.hpp"
 
 namespace fascicle::game {
@@ -125,7 +126,7 @@ class TagWalker : public testing::Test {
     const fs::path content = fs::path(FASCICLE_SOURCE_DIR) / "content";
     fs::copy(content / "scenes", folder_ / "scenes", fs::copy_options::recursive);
     fs::copy(content / "schema", folder_ / "schema", fs::copy_options::recursive);
-    fs::copy(content / "characters" / "walker", folder_ / "characters" / "walker", fs::copy_options::recursive);
+    test::copy_character_folder(content / "characters" / "walker", folder_ / "characters" / "walker");
     const auto scene = muscle::load_scene(scene_file());
     ASSERT_TRUE(scene.ok()) << to_text(scene.diagnostics());
     scene_ = *scene;

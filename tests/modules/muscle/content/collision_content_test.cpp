@@ -16,6 +16,7 @@
 #include "modules/muscle/content/content_reloader.hpp"
 #include "modules/muscle/content/tag_place.hpp"
 #include "tests/modules/muscle/content/scratch_collision.hpp"
+#include "tests/support/copy_folder.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -170,7 +171,7 @@ TEST(CollisionContent, TheReadmesExampleIsSound) {
   ASSERT_NE(start, std::string::npos);
   const std::string example = readme.substr(start + 8, readme.find("```", start + 8) - start - 8);
   const ScratchFolder folder;
-  std::filesystem::copy(content / "characters/walker", folder.path(), std::filesystem::copy_options::recursive);
+  test::copy_character_folder(content / "characters/walker", folder.path());
   folder.write("walker.collision.json", example);
   const auto character = load(folder.path() / "walker.character.json");
   ASSERT_TRUE(character);
