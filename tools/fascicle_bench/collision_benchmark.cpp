@@ -1,14 +1,14 @@
 // Collision on one thread, over a moving gait cycle with the character's own settings:
 //
-//   collision_step/SCENE/LEVEL/N       a step of all muscle systems for N characters, each at its own place of the cycle
+//   collision_step/SCENE/LEVEL/N       a step of all muscle systems for N characters, each at its place of the cycle
 //   collision_step_without/…           the same with collision off
 //   collision_solve/…                  the part of it that the collision systems take
 //   collision_detect/SCENE/LEVEL       finding the contacts of one character
 //   collision_detect_reference/…       the same contacts without grid, boxes and fields: every sample against every
 //                                      bone's nearest triangle and winding number, and every other muscle's outline
 //
-// LEVEL: C8 is |C| = 8, LSS 1; content is what the character's file says. The bones are posed beforehand. Times of steps
-// are the processor's. Counters, of one character: us_median of all steps, contacts in the last one, KiB of its
+// LEVEL: C8 is |C| = 8, LSS 1; content is what the character's file says. The bones are posed beforehand. Times are the
+// processor's. Counters, of one character: us_median of all steps, contacts in the last one, KiB of its
 // components, and KiB of the CollisionAsset that all share. gait2392 needs the real data and is skipped without.
 #include <benchmark/benchmark.h>
 
@@ -356,8 +356,9 @@ void detect(benchmark::State& state, const std::string& name, bool coarse, bool 
       }
       for (const bool reference : {false, true}) {
         const std::string title = reference ? "collision_detect_reference" : "collision_detect";
-        auto* added = benchmark::RegisterBenchmark((title + what).c_str(), detect, std::string(scene), coarse, reference)
-                          ->Unit(benchmark::kMillisecond);
+        auto* added =
+            benchmark::RegisterBenchmark((title + what).c_str(), detect, std::string(scene), coarse, reference)
+                ->Unit(benchmark::kMillisecond);
         if (reference) added->Iterations(kSnapshots);
         else added->MinTime(0.5);
       }

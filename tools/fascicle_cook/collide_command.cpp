@@ -14,6 +14,7 @@
 #include "engine/content/closest_name.hpp"
 #include "engine/content/file_text.hpp"
 #include "modules/muscle/content/find_content.hpp"
+#include "tools/fascicle_cook/collide_extremes.hpp"
 #include "tools/fascicle_cook/collide_report.hpp"
 #include "tools/fascicle_cook/collide_run.hpp"
 #include "tools/fascicle_cook/commands.hpp"
@@ -37,7 +38,8 @@ struct Options {
   std::uint64_t frames = 0, every = 1;
   double hz = 0.0, cycles = 10.0;
   int pairs = 0, threads = 0, level = -1;
-  bool json = false;
+  bool json = false, extremes = false;
+  std::string only;
 };
 
 // The scene of that name or file, or one made for a character's file: its clip, on the spot.
@@ -109,6 +111,11 @@ int collide(const Options& options) {
       if (mode == to_string(known)) modes.push_back(known);
     }
   }
+  if (options.extremes) {
+    const std::uint64_t every = options.every > 1 ? options.every : ExtremeOptions{}.every;
+    fmt::print("{}", to_table(run_extremes(*scene, modes, {.every = every, .workers = options.threads}, options.only)));
+    return kFine;
+  }
   CollideOptions run{.frames = frames_of(options, *scene), .every = options.every, .level = {},
                      .workers = options.threads};
   if (options.level >= 0) run.level = static_cast<std::uint32_t>(options.level);
@@ -147,6 +154,9 @@ void add_collide(CLI::App& program, Command& chosen) {
       ->expected(0, 1)
       ->default_str("20")
       ->check(CLI::Range(1, 10000));
+  command->add_flag("--extremes", options->extremes,
+                    "Disturb the walk instead: sweeps, muscles beyond a bone, teleports, pauses, long frames");
+  command->add_option("--only", options->only, "With --extremes: those alone with this in their names");
   command->add_flag("--json", options->json, "Print the figures as JSON in place of tables");
   command->add_option("--csv", options->csv, "Write the figures of every measured step to this file");
   command->add_option("--threads", options->threads, "Workers (one for each core)")->check(CLI::Range(0, 256));

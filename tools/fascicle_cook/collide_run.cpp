@@ -26,13 +26,6 @@ std::shared_ptr<const SceneAsset> alone(const SceneAsset& scene) {
   return copy;
 }
 
-void set_mode(ecs::World& world, ecs::Entity musculature, CollideMode mode) {
-  MuscleCollision* collision = world.try_get<MuscleCollision>(musculature);
-  if (collision == nullptr) return;
-  collision->settings.enabled = mode != CollideMode::kWithout;
-  collision->settings.mode = mode == CollideMode::kLegacy ? CollisionMode::kLegacy : CollisionMode::kReduced;
-}
-
 void stand_still(ecs::World& world, ecs::Entity character) {
   if (ClipPlayer* clip = world.try_get<ClipPlayer>(character)) clip->speed = 0.0f;
   if (MotionPlayer* motion = world.try_get<MotionPlayer>(character)) motion->speed = 0.0;
@@ -73,8 +66,7 @@ CollideRun run_mode(const std::shared_ptr<const SceneAsset>& scene, CollideMode 
   if (options.level) simulation.set_viewer({.enabled = true, .level = options.level});
   const game::SpawnedCharacter character = simulation.characters().front();
   ecs::World& world = simulation.world();
-  set_mode(world, character.musculature, mode);
-  if (mode == CollideMode::kLegacy) game::add_legacy_collision(world, character);
+  set_mode(simulation, mode);
 
   CollideRun run;
   run.mode = mode;
@@ -86,23 +78,15 @@ CollideRun run_mode(const std::shared_ptr<const SceneAsset>& scene, CollideMode 
     simulation.step();
     stepping += monotonic_ns() - start;
     if (frame % options.every != 0) continue;
-    const MuscleAsset& asset = *world.get<Musculature>(character.musculature).asset;
-    const MuscleSurfaces& surfaces = world.get<MuscleSurfaces>(character.musculature);
-    const Tendons& tendons = world.get<Tendons>(character.musculature);
     const std::int64_t measure_start = monotonic_ns();
-    Penetration now;
-    simulation.workers().execute(
-        [&] { now = meter.measure(surfaces, tendons, world.get<BoneMatrices>(character.entity).world); });
+    const Penetration now = measure_now(simulation, meter);
     measuring += monotonic_ns() - measure_start;
 
-    CollideFrame measured{.frame = frame, .bone = deepest(now.bones), .muscle = deepest(now.muscles),
-                          .beyond = beyond(now, rest), .area = {}, .fallbacks = 0,
-                          .held = simulation.held_steps()};
-    if (const MuscleCollision* collision = world.try_get<MuscleCollision>(character.musculature)) {
-      measure_section_areas(asset, surfaces, tendons, areas);
-      measured.area = worst_area_error(asset, areas, collision->target_area);
-      measured.fallbacks = collision->fallbacks;
-    }
+    const MuscleCollision* collision = world.try_get<MuscleCollision>(character.musculature);
+    const CollideFrame measured{.frame = frame, .bone = deepest(now.bones), .muscle = deepest(now.muscles),
+                                .beyond = beyond(now, rest), .area = measure_areas_now(simulation, areas),
+                                .fallbacks = collision == nullptr ? 0 : collision->fallbacks,
+                                .held = simulation.held_steps()};
     run.frames.push_back(measured);
     if (now.left_out > 0) ++run.unstable;
     if (frame < options.first) continue;
@@ -138,31 +122,68 @@ const char* to_string(CollideMode mode) {
   return "";
 }
 
+void set_mode(game::Simulation& simulation, CollideMode mode) {
+  const game::SpawnedCharacter& character = simulation.characters().front();
+  MuscleCollision* collision = simulation.world().try_get<MuscleCollision>(character.musculature);
+  if (collision == nullptr) return;
+  collision->settings.enabled = mode != CollideMode::kWithout;
+  collision->settings.mode = mode == CollideMode::kLegacy ? CollisionMode::kLegacy : CollisionMode::kReduced;
+  if (mode == CollideMode::kLegacy) game::add_legacy_collision(simulation.world(), character);
+}
+
+Penetration measure_now(game::Simulation& simulation, PenetrationMeter& meter) {
+  const ecs::World& world = simulation.world();
+  const game::SpawnedCharacter& character = simulation.characters().front();
+  Penetration now;
+  simulation.workers().execute([&] {
+    now = meter.measure(world.get<MuscleSurfaces>(character.musculature), world.get<Tendons>(character.musculature),
+                        world.get<BoneMatrices>(character.entity).world);
+  });
+  return now;
+}
+
+AreaError measure_areas_now(const game::Simulation& simulation, std::vector<float>& areas) {
+  const ecs::World& world = simulation.world();
+  const ecs::Entity musculature = simulation.characters().front().musculature;
+  const MuscleCollision* collision = world.try_get<MuscleCollision>(musculature);
+  if (collision == nullptr) return {};
+  const MuscleAsset& asset = *world.get<Musculature>(musculature).asset;
+  measure_section_areas(asset, world.get<MuscleSurfaces>(musculature), world.get<Tendons>(musculature), areas);
+  return worst_area_error(asset, areas, collision->target_area);
+}
+
+CollideSubject prepare_subject(const SceneAsset& scene, const CollideOptions& options) {
+  CollideSubject subject;
+  subject.scene = alone(scene);
+  game::Simulation probe(subject.scene, {.workers = options.workers, .skin_meshes = false});
+  if (options.level) probe.set_viewer({.enabled = true, .level = options.level});
+  for (int i = 0; i < 2; ++i) probe.step();
+  const ecs::Entity musculature = probe.characters().front().musculature;
+  subject.asset = probe.world().get<Musculature>(musculature).asset;
+  subject.collides = probe.world().try_get<MuscleCollision>(musculature) != nullptr;
+  const CharacterAsset& character = *subject.scene->characters.front().character;
+  subject.meter = std::make_unique<PenetrationMeter>(subject.asset, make_bone_solids(character.bone_meshes),
+                                                     options.spacing);
+  const RestSurfaces rest = make_rest_surfaces(subject.asset, character.skeleton->rest_world);
+  subject.rest = subject.meter->measure(rest.surfaces, rest.tendons, character.skeleton->rest_world);
+  return subject;
+}
+
 CollideReport run_collide(const std::shared_ptr<const SceneAsset>& scene, const std::vector<CollideMode>& modes,
                           const CollideOptions& options) {
-  const std::shared_ptr<const SceneAsset> played = alone(*scene);
   CollideReport report;
-  report.scene = scene->name;
-  report.step_hz = scene->step_hz;
-  report.options = options;
-  report.character = played->characters.front().character;
-  bool collides = false;
-  {
-    game::Simulation probe(played, {.workers = options.workers, .skin_meshes = false});
-    if (options.level) probe.set_viewer({.enabled = true, .level = options.level});
-    for (int i = 0; i < 2; ++i) probe.step();
-    const ecs::Entity musculature = probe.characters().front().musculature;
-    report.asset = probe.world().get<Musculature>(musculature).asset;
-    collides = probe.world().try_get<MuscleCollision>(musculature) != nullptr;
-  }
   parallel::WorkerArena workers(options.workers);
   workers.execute([&] {
-    PenetrationMeter meter(report.asset, make_bone_solids(report.character->bone_meshes));
-    const RestSurfaces rest = make_rest_surfaces(report.asset, report.character->skeleton->rest_world);
-    report.rest = meter.measure(rest.surfaces, rest.tendons, report.character->skeleton->rest_world);
+    const CollideSubject subject = prepare_subject(*scene, options);
+    report.scene = scene->name;
+    report.step_hz = scene->step_hz;
+    report.options = options;
+    report.character = subject.scene->characters.front().character;
+    report.asset = subject.asset;
+    report.rest = subject.rest;
     for (const CollideMode mode : modes) {
-      if (mode != CollideMode::kWithout && !collides) continue;
-      report.runs.push_back(run_mode(played, mode, meter, report.rest, options));
+      if (!subject.has(mode)) continue;
+      report.runs.push_back(run_mode(subject.scene, mode, *subject.meter, subject.rest, options));
     }
   });
   return report;

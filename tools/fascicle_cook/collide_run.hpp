@@ -11,6 +11,10 @@
 #include "modules/muscle/measure/penetration_meter.hpp"
 #include "modules/muscle/measure/section_areas.hpp"
 
+namespace fascicle::game {
+class Simulation;
+}
+
 namespace fascicle::cook {
 
 enum class CollideMode { kWithout, kWith, kLegacy };
@@ -22,6 +26,7 @@ struct CollideOptions {
   std::uint64_t first = 11;            // the first step that counts
   std::optional<std::uint32_t> level;  // of detail; absent: the finest
   int workers = 0;                     // 0: one for each core
+  float spacing = muscle::kSampleSpacing;  // m between the points that are measured
 };
 
 // One measured step.
@@ -63,5 +68,26 @@ struct CollideReport {
 };
 CollideReport run_collide(const std::shared_ptr<const muscle::SceneAsset>& scene, const std::vector<CollideMode>& modes,
                           const CollideOptions& options);
+
+// What all runs of a scene's first character share.
+struct CollideSubject {
+  std::shared_ptr<const muscle::SceneAsset> scene;  // with that character alone
+  std::shared_ptr<const muscle::MuscleAsset> asset;  // that is played
+  bool collides = false;                             // modes other than kWithout make sense
+  std::unique_ptr<muscle::PenetrationMeter> meter;
+  muscle::Penetration rest;
+
+  bool has(CollideMode mode) const { return collides || mode == CollideMode::kWithout; }
+};
+// In parallel on the caller's arena.
+CollideSubject prepare_subject(const muscle::SceneAsset& scene, const CollideOptions& options);
+
+// Lets the simulation's first character collide in this mode from the next step on.
+void set_mode(game::Simulation& simulation, CollideMode mode);
+
+// The first character's penetration as it is now.
+muscle::Penetration measure_now(game::Simulation& simulation, muscle::PenetrationMeter& meter);
+// And its worst section; nothing where it has no collision. `areas` is scratch.
+muscle::AreaError measure_areas_now(const game::Simulation& simulation, std::vector<float>& areas);
 
 }  // namespace fascicle::cook
