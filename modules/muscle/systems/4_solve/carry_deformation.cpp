@@ -87,20 +87,18 @@ void take_over_level(const Musculature& musculature, MuscleCollision& collision)
   else change_level(**level, collision);
 }
 
-// A level that morphs into the next has its radii at rest on the way to that one's.
+// A level that morphs into the next has its radii at rest on the way to that one's. What is pressed goes along with
+// them, even where the solve has gone to rest: a viewer who comes and goes must not wake it.
 void morph_rest_radii(const Musculature& musculature, MuscleCollision& collision) {
   if (collision.morph == musculature.morph) return;
   const AlignedVector<float>& from = musculature.asset->rest_radii;
-  if (musculature.morph > 0.0f) {
-    const AlignedVector<float>& to = musculature.coarser->radii;
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      collision.rest_radii[i] = from[i] + musculature.morph * (to[i] - from[i]);
-    }
-  } else {
-    collision.rest_radii = from;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const float to = musculature.morph > 0.0f ? musculature.coarser->radii[i] : from[i];
+    const float rest = from[i] + musculature.morph * (to - from[i]);
+    collision.radii[i] += rest - collision.rest_radii[i];
+    collision.rest_radii[i] = rest;
   }
   collision.morph = musculature.morph;
-  collision.still = 0.0f;
 }
 
 }  // namespace
