@@ -91,7 +91,8 @@ std::string CollisionStats::to_table() const {
     }
   }
   if (lines.empty()) return {};
-  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.row->depth > b.row->depth; });
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const Line& a, const Line& b) { return a.row->depth > b.row->depth; });
   std::string text = fmt::format("\n{:<16}  {:<32}  {:>9}  {:>9}  {:>12}  {:>14}\n", "owner", "muscle", "contacts",
                                  "most", "left max, mm", "steps > 0.5 mm");
   for (const Line& line : lines) {

@@ -35,9 +35,9 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
 
   CLI::App app("Fascicle: muscles on a walking character. Without arguments: the walker, in a window.", "fascicle");
   app.footer(
-      "Keys in a window: Space pauses, Period steps, R resets the camera, H hides the overlay; S B M A C T G switch skin,\n"
-      "bones, muscles, action lines, sections, tendons and ground; K shows contacts and tags. E adds a tag by two clicks\n"
-      "(Enter saves, Backspace forgets a click, Y who yields, W sweeps, O both sides). Escape ends.");
+      "Keys in a window: Space pauses, Period steps, R resets the camera, H hides the overlay. S B M A C T G switch\n"
+      "skin, bones, muscles, action lines, sections, tendons and ground; K shows contacts and tags. E adds a tag by two\n"
+      "clicks (Enter saves, Backspace forgets a click, Y who yields, W sweeps, O both sides). Escape ends.");
   app.add_option("--scene", options.scene, "A name in content/scenes (walker, gait2392, cesium-man) or a scene file");
   app.add_flag("--headless", options.headless, "No window: run, then print the time per system");
   app.add_option("--frames", options.frames, "Steps to run (headless: the scene's own length by default)")

@@ -112,10 +112,10 @@ class WindowRun {
   }
 
   void pick(const glm::vec2& pixel, const glm::vec2& size) {
-    const PickFilter filter{.muscles = view_.strips, .bones = view_.meshes, .is_hidden = [this](const std::string& name) {
-                              return !feed_.item_state(name).visible;
-                            }};
-    if (const auto place = pick_place(simulation_, filter, ray_through(view_.camera, pixel, size))) editor_.pick(*place);
+    const auto is_hidden = [this](const std::string& name) { return !feed_.item_state(name).visible; };
+    const PickFilter filter{.muscles = view_.strips, .bones = view_.meshes, .is_hidden = is_hidden};
+    const auto place = pick_place(simulation_, filter, ray_through(view_.camera, pixel, size));
+    if (place) editor_.pick(*place);
   }
 
   void edit(TagCommand command) {
@@ -131,8 +131,12 @@ class WindowRun {
     const muscle::CharacterAsset& asset = *simulation_.characters()[editor_.places()[0].character].asset;
     const auto saved = muscle::save_transversal(asset.files.front(), asset, *tag, editor_.mirror());
     feed_.set_messages(saved.diagnostics());
-    if (saved) editor_.set_saved(saved->file.string());
-    else editor_.set_failed();
+    if (saved) {
+      editor_.set_saved(saved->file.string());
+    } else {
+      editor_.set_failed();
+      show_overlay_ = true;  // it has the errors
+    }
   }
 
   void poll_reload() {

@@ -29,7 +29,8 @@ TEST(Pick, WithoutAPictureTheRayGoesThroughTheMiddle) {
 
 TEST(Pick, TheRayThroughAPointsPixelMeetsThePoint) {
   const OrbitCamera camera{.target = {0.1f, 0.9f, -0.2f}, .distance = 1.7f, .yaw = -2.1f, .pitch = 0.4f};
-  for (const glm::vec3 point : {glm::vec3(0.1f, 0.9f, -0.2f), glm::vec3(0.4f, 1.1f, 0.0f), glm::vec3(-0.2f, 0.6f, 0.1f)}) {
+  const glm::vec3 points[] = {{0.1f, 0.9f, -0.2f}, {0.4f, 1.1f, 0.0f}, {-0.2f, 0.6f, 0.1f}};
+  for (const glm::vec3& point : points) {
     const Ray ray = ray_through(camera, pixel_of(camera, point), kViewport);
     EXPECT_NEAR(glm::length(ray.direction), 1.0f, 1e-5f);
     const float along = glm::dot(point - ray.origin, ray.direction);
