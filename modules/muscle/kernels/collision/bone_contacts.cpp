@@ -15,6 +15,12 @@ namespace {
 // A sample whose own surface looks along the way out of the bone, rather than against it, has come through to the far
 // side: it goes back the way it came, against its own normal, not out of the back.
 constexpr float kThrough = 0.3f;
+constexpr float kBarely = 0.002f;  // m
+
+// What is deep in it at rest has no side that it came from.
+bool has_come_through(const FieldValue& value, float allowed, const glm::vec3& normal, const glm::vec3& outward) {
+  return allowed < kBarely && value.distance + allowed < 0.0f && glm::dot(normal, outward) > kThrough;
+}
 
 bool overlap(const Bounds& a, const Bounds& b) {
   return glm::all(glm::lessThanEqual(a.lower, b.upper)) && glm::all(glm::lessThanEqual(b.lower, a.upper));
@@ -73,7 +79,7 @@ class BoneTest {
     contact.bone = static_cast<std::int32_t>(place_);
     contact.normal = turn_ * value.gradient;
     const glm::vec3 outward = sample_normal(asset_, work_, r, i);
-    if (value.distance + allowed < 0.0f && glm::dot(contact.normal, outward) > kThrough) contact.normal = -outward;
+    if (has_come_through(value, allowed, contact.normal, outward)) contact.normal = -outward;
     if (!carry_sample(asset_, work_, r, i, contact)) return;
     contact.allowed = allowed;
     contact.found = value.distance + allowed - margin_;
@@ -143,9 +149,9 @@ void refresh_bone_contacts(const CollisionAsset& asset, std::span<const glm::mat
     const FieldValue value = asset.fields[place]->at((now - glm::vec3(bone[3])) * glm::mat3(bone));
     if (value.gradient == glm::vec3(0.0f)) continue;
     glm::vec3 normal = glm::mat3(bone) * value.gradient;
-    if (contact.row != kCentreRow && value.distance + contact.allowed < 0.0f) {
+    if (contact.row != kCentreRow) {
       const glm::vec3 outward = sample_normal(asset, work, contact.row, contact.sample);
-      if (glm::dot(normal, outward) > kThrough) normal = -outward;
+      if (has_come_through(value, contact.allowed, normal, outward)) normal = -outward;
     }
     turn_contact(work, normal, contact);
     weigh_contact(work, contact);

@@ -1,6 +1,8 @@
 #include "modules/muscle/kernels/collision/keep_sides.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,7 +13,7 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr float kNearby = 0.004f;      // m: a section displaced by less has not gone round anything
+constexpr float kNearby = 0.004f;      // m: a section displaced by less, or less than its size, has not gone round anything
 constexpr int kStepsOnTheWay = 8;      // places that the way is looked at
 constexpr float kInTheWay = 0.0005f;   // m: so deep in a bone a way leads through it
 
@@ -60,7 +62,8 @@ void recall_strayed(const CollisionAsset& asset, std::span<const glm::mat4> bone
     const CollisionSection& section = asset.sections[s];
     const glm::vec3 way = work.a[s] - work.driven[s];
     const float length2 = glm::dot(way, way);
-    if (section.end || length2 < kNearby * kNearby) continue;
+    const float nearby = std::max(kNearby, std::sqrt(section.rest_area / std::numbers::pi_v<float>));
+    if (section.end || length2 < nearby * nearby) continue;
     const float reach = glm::length(way);
     for (std::size_t place = 0; place < asset.bones.size(); ++place) {
       const glm::mat4& bone = bones[static_cast<std::size_t>(asset.bones[place])];

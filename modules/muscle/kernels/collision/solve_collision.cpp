@@ -18,12 +18,13 @@ namespace {
 
 constexpr float kReach = 0.0025f;         // m: contacts are found this far ahead of a step
 constexpr float kMostPush = 0.0015f;      // m, of a contact in a substep: it knows no more than its neighbourhood
+constexpr float kRadiusPull = 0.2f, kLinePull = 4.0f;  // of the times to the shape at rest
 constexpr float kHolds = 0.0002f;         // m: nearer than this a contact keeps its radii from growing
 constexpr float kHoldingLever = 0.1f;     // of a contact on a radius
 constexpr float kLargestInflation = 1.25f;  // in one round
 
 // How much of the way to its goal something with a time constant goes in a substep: implicit Euler, so never too far.
-float approach(float step, float time) { return step / (step + std::max(time, 1.0e-4f)); }
+float approach(float step, float time) { return step / (step + std::max(time, 1.0e-5f)); }
 
 // Within what it may be: neither turned inside out nor drawn out into a spike. What a contact cannot get from it, the
 // centre has to give.
@@ -80,7 +81,10 @@ float contact_value(const Contact& contact, const CollisionWork& work) {
 void relax_shape(const CollisionAsset& asset, const CollisionSettings& settings, float step, CollisionWork& work) {
   const float line = approach(step, settings.line_time), via = approach(step, settings.via_time);
   const float shape = approach(step, settings.shape_time);
-  const float smooth = settings.smoothing * 0.5f;
+  // Neighbours' pull, by its own time: at a half about a fifth of the time that a radius takes to come back.
+  const float stiffness = settings.smoothing / std::max(1.0f - settings.smoothing, 0.01f);
+  const float smooth = stiffness > 0.0f ? approach(step, kRadiusPull * settings.shape_time / stiffness) : 0.0f;
+  const float straighten = stiffness > 0.0f ? approach(step, kLinePull * settings.line_time / stiffness) : 0.0f;
   for (std::size_t s = 0; s < asset.sections.size(); ++s) {
     const CollisionSection& section = asset.sections[s];
     float* radii = &work.radii[section.first_radius];
@@ -92,7 +96,7 @@ void relax_shape(const CollisionAsset& asset, const CollisionSettings& settings,
     // Neighbours pull a displacement towards their mean; what lies along the line goes first (even spacing).
     glm::vec3 offset = work.a[s] - work.driven[s];
     const glm::vec3 mean = 0.5f * ((work.a[s - 1] - work.driven[s - 1]) + (work.a[s + 1] - work.driven[s + 1]));
-    offset += shape * smooth * (mean - offset);
+    offset += straighten * (mean - offset);
     offset *= 1.0f - (section.via ? via : line);
     offset -= approach(step, settings.via_time) * glm::dot(offset, work.t[s]) * work.t[s];
     work.a[s] = work.driven[s] + offset;
@@ -161,6 +165,8 @@ void begin_substep(const CollisionAsset& asset, const CollisionSettings& setting
 
 void solve_collision(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
                      float step, CollisionWork& work) {
+  work.contacts.clear();
+  if (!(step > 0.0f)) return;
   place_directions(asset, work);
   recall_strayed(asset, bones, work);
   hold_transversals(asset, bones, work);

@@ -16,7 +16,7 @@
 
 namespace fascicle::muscle {
 
-// `step` in s; 0 relaxes nothing. a, driven, radii, wanted, area_target, mobility and frames must be set. Afterwards
+// `step` in s; nothing happens in none. a, driven, radii, wanted, area_target, mobility and frames must be set. Afterwards
 // `contacts` are the last substep's.
 void solve_collision(const CollisionAsset& asset, const CollisionSettings& settings, std::span<const glm::mat4> bones,
                      float step, CollisionWork& work);

@@ -41,6 +41,7 @@ void report_contacts(const CollisionAsset& asset, const CollisionWork& work, Mus
     MuscleContact contact;
     contact.muscle = asset.sections[found.section].muscle;
     collision.cost[contact.muscle] += 1.0f;
+    if (found.bone < 0) collision.cost[asset.sections[found.other_section].muscle] += 1.0f;
     contact.left = std::max(-contact_value(found, work), 0.0f);
     collision.depth[contact.muscle] = std::max(collision.depth[contact.muscle], contact.left);
     if (found.push <= 0.0f && found.found > 0.0f) continue;
