@@ -47,6 +47,7 @@ class Resolver {
     }
     for (const BoneMeshEntry& entry : scope.bone_meshes) {
       const auto bone = bones_.find(entry.bone.text);
+      if (bone == bones_.end()) meshes_known_ = false;
       if (bone == bones_.end() || bones_with_mesh_[static_cast<std::size_t>(bone->second)]) continue;
       bones_with_mesh_[static_cast<std::size_t>(bone->second)] = true;
       solid_names_.push_back(entry.bone.text);
@@ -64,7 +65,8 @@ class Resolver {
     return -1;
   }
 
-  // The same of a bone; one without a mesh is an error.
+  // The same of a bone; one without a mesh is an error, unless a mesh of a bone that there is not may be meant for it,
+  // which is told where that mesh is named.
   std::int32_t bone(const NameEntry& name) {
     if (!name.given()) return -1;
     const auto known = bones_.find(name.text);
@@ -74,6 +76,7 @@ class Resolver {
       return -1;
     }
     if (!bones_with_mesh_[static_cast<std::size_t>(known->second)]) {
+      if (!meshes_known_) return -1;
       std::string others;
       if (!solid_names_.empty()) {
         others = ", or name another; " + suggest_name(name.text, solid_names_, "bones with a mesh");
@@ -141,6 +144,7 @@ class Resolver {
   std::map<std::string, std::int32_t, std::less<>> muscles_, bones_;
   std::vector<std::string> muscle_names_, solid_names_;
   std::vector<bool> bones_with_mesh_;
+  bool meshes_known_ = true;  // all of them are of bones that there are
 };
 
 using IgnoredPairs = std::map<Pair, Diagnostic>;

@@ -198,6 +198,16 @@ TEST(BrokenCollisionFile, NamesOfBrokenMusclesAreKnown) {
   EXPECT_THAT(found.errors[0].path, HasSubstr("/pcsa"));
 }
 
+TEST(BrokenCollisionFile, AMeshOfAnUnknownBoneMayBeTheOneThatIsMissing) {
+  const ScratchFolder folder;
+  const auto file = test::write_legs(folder);
+  const std::string_view kMesh = R"("bone_meshes": [{ "bone": "pelvis")";
+  folder.write("legs.character.json", with(test::legs_with_collision(), kMesh, R"("bone_meshes": [{ "bone": "pelvs")"));
+  const Diagnostics found = check_content(file, {.bone_fields = false});
+  ASSERT_EQ(found.errors.size(), 1u) << to_text(found);
+  EXPECT_THAT(found.errors[0].path, HasSubstr("/bone_meshes/0/bone"));
+}
+
 TEST(BrokenCollisionFile, MirrorNeedsARule) {
   const ScratchFolder folder;
   const auto file = test::write_legs(folder, with(std::string(kTags), "\"bone\": \"pelvis\" } }\n",
