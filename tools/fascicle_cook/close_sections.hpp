@@ -31,6 +31,8 @@ class Solid {
   explicit Solid(const TriangleMesh& mesh);
   // Nothing where the point is further than `near` outside.
   std::optional<float> distance(const glm::vec3& point, float near) const;
+  // The nearest point of the surface.
+  glm::vec3 nearest(const glm::vec3& point) const { return surface_.at(point).position; }
   const Bounds& bounds() const { return bounds_; }
 
  private:

@@ -65,8 +65,11 @@ std::string to_table(const CharacterAsset& character, const FoundConstraints& fo
   };
   std::map<std::uint32_t, Row> rows;
   for (const FoundTransversal& entry : found.transversals) {
-    const auto [at, fresh] = rows[entry.tag.first.muscle].partners.emplace(
-        character.descriptions[entry.tag.second.muscle].name, std::pair(0, entry.distance));
+    const std::string& partner = entry.tag.bone >= 0
+                                     ? character.skeleton->names[static_cast<std::size_t>(entry.tag.bone)]
+                                     : character.descriptions[entry.tag.second.muscle].name;
+    const auto [at, fresh] =
+        rows[entry.tag.first.muscle].partners.emplace(partner, std::pair(0, entry.distance));
     ++at->second.first;
     at->second.second = std::min(at->second.second, entry.distance);
   }
@@ -127,9 +130,10 @@ int constrain(const Options& options) {
   });
   muscle::AutomaticEntries entries;
   const muscle::CollisionNames names{character.descriptions, *character.skeleton};
-  std::size_t both_sides = 0;
+  std::size_t both_sides = 0, with_bones = 0;
   for (const FoundTransversal& entry : found.transversals) {
     entries.transversals.push_back(write_entry(entry.tag, names, entry.mirror));
+    with_bones += entry.tag.bone >= 0 ? 1 : 0;
     both_sides += character.mirror.axis >= 0 && !entry.mirror ? 1 : 0;
   }
   for (const FoundStayOut& entry : found.stay_out) {
@@ -137,9 +141,10 @@ int constrain(const Options& options) {
   }
   fmt::print("{}", to_table(character, found));
   fmt::print("\n{}: {} poses; {} pairs of muscles come within {:.3g} mm, {} pairs of sections face each other, {} lie "
-             "too deep in each other\n{} transversals ({} of both sides), {} muscles that stay out of bones\n",
+             "too deep in each other; {} sections lie beside a bone\n{} transversals ({} with bones, {} of both "
+             "sides), {} muscles that stay out of bones\n",
              character.name, poses.size(), found.close_pairs, options.near_mm, found.close_sections, found.buried,
-             found.transversals.size(), both_sides, found.stay_out.size());
+             found.beside_bones, found.transversals.size(), with_bones, both_sides, found.stay_out.size());
   const auto saved = save_automatic(*file, entries, !options.dry_run);
   print_diagnostics(saved.diagnostics());
   if (!saved) return kErrors;

@@ -11,9 +11,10 @@
 // - Along the first muscle of a pair tags keep `every` from each other, the closest first.
 // - A pair and its mirror image are thinned together; a tag that both sides have (the same section, partners within one
 //   section and one vertex) is written once and mirrored, others are for one side.
-// - Bones: each muscle gets the list of those that any of its sections comes close to.
-// - Pairs that the author ignores get nothing, nor do places along a pair where the author has tags, nor the bones of a
-//   muscle for which the author says what to stay out of.
+// - Sections that lie beside a bone over the animation get tags with it (beside_bones.hpp), thinned likewise.
+// - Each muscle gets the list of the bones that any of its sections comes close to.
+// - Pairs that the author ignores get nothing, nor do places along a pair where the author has tags, nor a muscle for
+//   which the author says what to stay out of, as far as bones go.
 #pragma once
 
 #include <cstdint>
@@ -25,18 +26,13 @@
 #include <glm/mat4x4.hpp>
 
 #include "modules/muscle/content/character_asset.hpp"
+#include "tools/fascicle_cook/choose_tags.hpp"
 
 namespace fascicle::cook {
 
 struct ConstrainOptions {
   float near = 0.005f;   // m
   float every = 0.04f;   // m
-};
-
-struct FoundTransversal {
-  muscle::TransversalTag tag;
-  float distance = 0.0f;       // m, the smallest over the poses, negative within each other
-  std::optional<bool> mirror;  // as it is to be written
 };
 
 struct FoundStayOut {
@@ -51,6 +47,7 @@ struct FoundConstraints {
   std::size_t close_pairs = 0;     // of muscles
   std::size_t close_sections = 0;  // pairs of sections that keep the rules, before thinning
   std::size_t buried = 0;          // pairs of sections that are close in no pose that keeps the rules
+  std::size_t beside_bones = 0;    // sections and bones that keep the rules, before thinning
 };
 
 // The same for any number of workers.
