@@ -69,10 +69,10 @@ struct Walkers : MuscleWorld {
 TEST(CollisionFrame, StateIsTheSameForAnyWorkers) {
   std::vector<std::uint64_t> expected;
   for (const int workers : {1, 2, 3, 8}) {
-    Walkers w(workers, 5);
+    Walkers w(workers, 3);
     std::vector<std::uint64_t> hashes;
     std::uint32_t contacts = 0;
-    for (int frame = 0; frame < 8; ++frame) {
+    for (int frame = 0; frame < 5; ++frame) {
       w.walk(frame);
       w.step();
       hashes.push_back(hash_state(w.world));
@@ -89,8 +89,8 @@ TEST(CollisionFrame, StateIsTheSameForAnyWorkers) {
 
 TEST(CollisionFrame, CharactersDoNotDependOnEachOther) {
   // The second walker alone has the state that it has among others: scratch carries nothing over.
-  Walkers many(1, 4), alone(1, 1);
-  for (int frame = 0; frame < 8; ++frame) {
+  Walkers many(1, 3), alone(1, 1);
+  for (int frame = 0; frame < 5; ++frame) {
     many.walk(frame);
     alone.pose(alone.characters[0], test::walk_bones(0.03f * static_cast<float>(frame) + 0.17f));
     many.step();
@@ -101,12 +101,12 @@ TEST(CollisionFrame, CharactersDoNotDependOnEachOther) {
 
 TEST(CollisionFrame, NothingIsAllocated) {
   for (const int workers : {1, 2}) {
-    Walkers w(workers, 4);
-    for (int frame = 0; frame < 24; ++frame) {
+    Walkers w(workers, 3);
+    for (int frame = 0; frame < 18; ++frame) {
       w.walk(frame);
-      if (frame == 15) w.world.get<BoneMatrices>(w.characters[0]).world[2][3].x = std::numeric_limits<float>::quiet_NaN();
-      if (frame == 17) w.world.get<MuscleCollision>(w.musculatures[1]).radii[40] = std::numeric_limits<float>::quiet_NaN();
-      if (frame == 19 || frame == 21) {
+      if (frame == 11) w.world.get<BoneMatrices>(w.characters[0]).world[2][3].x = std::numeric_limits<float>::quiet_NaN();
+      if (frame == 13) w.world.get<MuscleCollision>(w.musculatures[1]).radii[40] = std::numeric_limits<float>::quiet_NaN();
+      if (frame == 14 || frame == 16) {
         bool& enabled = w.world.get<MuscleCollision>(w.musculatures[2]).settings.enabled;
         enabled = !enabled;
       }
@@ -122,8 +122,8 @@ TEST(CollisionFrame, NothingIsAllocated) {
 TEST(CollisionFrame, WalkStaysSound) {
   Walkers w(2, 1);
   MuscleSurfaces last;
-  for (int frame = 0; frame < 120; ++frame) {
-    w.pose(w.characters[0], test::walk_bones(static_cast<float>(frame) / 60.0f, {0.0f, 0.95f, 0.0f}));
+  for (int frame = 0; frame < 60; ++frame) {
+    w.pose(w.characters[0], test::walk_bones(static_cast<float>(frame) / 50.0f, {0.0f, 0.95f, 0.0f}));
     w.step();
     for (const SurfaceVertex& vertex : w.world.get<MuscleSurfaces>(w.musculatures[0]).vertices) {
       ASSERT_TRUE(std::isfinite(vertex.position.x + vertex.position.y + vertex.position.z));

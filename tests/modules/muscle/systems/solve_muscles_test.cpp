@@ -342,6 +342,70 @@ TEST(SolveMuscles, DetachedMuscleGivesWay) {
   }
 }
 
+TEST(SolveMuscles, BonesKeepMusclesOutWithAnyNumberOfSubsteps) {
+  // Pressed so far that centres have to go.
+  for (const std::uint32_t substeps : {2u, 4u, 16u}) {
+    CollisionSettings settings;
+    settings.substeps = substeps;
+    RodWorld w({rod_along_z()}, {nullptr, test::sphere_bone(0.03f)}, with(settings));
+    w.place_bone(1, glm::translate(glm::mat4(1.0f), {0, -0.055f, 0}));
+    w.steps(2);
+    w.bring_bone(1, {0, -0.027f, 0}, 60);
+    w.steps(60);
+    EXPECT_LT(w.deepest(), 1.0e-3f) << substeps << " substeps";
+    EXPECT_EQ(w.collision().fallbacks, 0u);
+  }
+}
+
+TEST(SolveMuscles, NewSettingsCountInAStillPoseToo) {
+  RodWorld w({rod_along_z()}, ground());
+  w.bring_bone(1, {0, 0.012f, 0});
+  w.steps(120);
+  w.collision().settings.bone_margin = 0.004f;
+  w.steps(40);
+  float lowest = 1.0f;
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    lowest = std::min(lowest, w.centre(0, 4).y + w.radii(0, 4)[i] * w.direction(0, 4, i).y);
+  }
+  EXPECT_GT(lowest, -0.030f + 0.012f + 0.0035f);
+}
+
+TEST(SolveMuscles, TurningItOffEndsWhatTouched) {
+  RodWorld w(crossing_rods(), {nullptr, nullptr});
+  w.bring_bone(1, {0, -0.016f, 0});
+  ASSERT_EQ(w.contacts().now.size(), 1u);
+  w.collision().settings.enabled = false;
+  w.step();
+  EXPECT_TRUE(w.contacts().now.empty());
+  ASSERT_EQ(w.contacts().ended.size(), 1u);
+  EXPECT_EQ(w.contacts().ended[0].other, 1u);
+  EXPECT_EQ(w.collision().contact_count, 0u);
+}
+
+TEST(SolveMuscles, AnimalsOfAnySizeAreMovedApart) {
+  // A mouse, a person, an elephant; each at its own size's spacing.
+  for (const float scale : {0.05f, 1.0f, 5.0f}) {
+    CollisionSettings settings;
+    settings.sample_spacing *= scale;
+    std::vector<test::Rod> rods = crossing_rods();
+    for (test::Rod& rod : rods) {
+      rod.from *= scale;
+      rod.to *= scale;
+      rod.radius *= scale;
+    }
+    RodWorld w(rods, {nullptr, nullptr}, with(settings));
+    w.bring_bone(1, scale * glm::vec3(0, -0.013f, 0), 60);
+    w.steps(200);
+    EXPECT_TRUE(w.finite());
+    EXPECT_EQ(w.collision().fallbacks, 0u) << scale;
+    EXPECT_LT(w.deepest(), scale * 3.0e-4f) << scale;
+    EXPECT_LT(w.deformation(), scale * 0.012f) << scale;
+    w.bring_bone(1, {0, 0, 0}, 60);
+    w.steps(60);
+    EXPECT_LT(w.deformation(), scale * 3.0e-4f) << scale;
+  }
+}
+
 TEST(SolveMuscles, TeleportIntoABoneEndsOutOfIt) {
   // All at once 12 mm deep, as after a jump in time.
   RodWorld w({rod_along_z()}, ground());
