@@ -35,7 +35,7 @@ CLI::Validator within(double lowest, double highest) {
 struct Options {
   std::string source, clip, csv;
   std::vector<std::string> modes{"without", "with", "legacy"};
-  std::uint64_t frames = 0, every = 1;
+  std::uint64_t frames = 0, every = 0;
   double hz = 0.0, cycles = 10.0;
   int pairs = 0, threads = 0, level = -1;
   bool json = false, extremes = false;
@@ -112,12 +112,12 @@ int collide(const Options& options) {
     }
   }
   if (options.extremes) {
-    const std::uint64_t every = options.every > 1 ? options.every : ExtremeOptions{}.every;
+    const std::uint64_t every = options.every > 0 ? options.every : ExtremeOptions{}.every;
     fmt::print("{}", to_table(run_extremes(*scene, modes, {.every = every, .workers = options.threads}, options.only)));
     return kFine;
   }
-  CollideOptions run{.frames = frames_of(options, *scene), .every = options.every, .level = {},
-                     .workers = options.threads};
+  CollideOptions run{.frames = frames_of(options, *scene), .every = std::max<std::uint64_t>(options.every, 1),
+                     .level = {}, .workers = options.threads};
   if (options.level >= 0) run.level = static_cast<std::uint32_t>(options.level);
   const CollideReport report = run_collide(scene, modes, run);
   if (options.json) {
@@ -145,7 +145,7 @@ void add_collide(CLI::App& program, Command& chosen) {
   command->add_option("--frames", options->frames, "Steps (those of --cycles)");
   command->add_option("--hz", options->hz, "Steps a second (the scene's)")->check(within(1.0, 1000.0));
   command->add_option("--cycles", options->cycles, "Lengths of the animation (10)")->check(within(0.01, 1e4));
-  command->add_option("--every", options->every, "Measure one step in so many (1)")->check(CLI::Range(1, 1000000));
+  command->add_option("--every", options->every, "Measure one step in so many (1; of extremes 6)")->check(CLI::Range(1, 1000000));
   command->add_option("--modes", options->modes, "Of: without, with, legacy (all that the character has)")
       ->delimiter(',')
       ->check(CLI::IsMember({"without", "with", "legacy"}));
