@@ -235,6 +235,7 @@ void solve_muscles(ecs::View<const Musculature, MuscleCollision, MuscleContacts,
       if (is_sound(asset, work, m)) continue;
       fall_back(asset, m, work);
       ++collision.fallbacks;
+      collision.still = 0.0f;
     }
     store(work, *bones, collision, lines, sections);
     if (time->step > 0.0f) report_contacts(asset, work, collision, contacts);

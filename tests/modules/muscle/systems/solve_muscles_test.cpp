@@ -307,6 +307,17 @@ TEST(SolveMuscles, StateWithoutNumbersFallsBackAndRecovers) {
   }
 }
 
+TEST(SolveMuscles, FallingBackWakesASolveThatHasGoneToRest) {
+  RodWorld w(crossing_rods(), {nullptr, nullptr});
+  w.bring_bone(1, {0, -0.016f, 0});
+  w.steps(200);
+  w.collision().radii[w.muscles->radius(0, 4)] = kNaN;
+  w.steps(60);
+  EXPECT_GT(w.collision().fallbacks, 0u);
+  EXPECT_TRUE(w.finite());
+  EXPECT_LT(w.deepest(), 3.0e-4f);
+}
+
 TEST(SolveMuscles, TurnedOffAndOnAgain) {
   RodWorld w(crossing_rods(), {nullptr, nullptr});
   w.bring_bone(1, {0, -0.016f, 0});
