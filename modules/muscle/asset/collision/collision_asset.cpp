@@ -20,6 +20,7 @@ namespace fascicle::muscle {
 namespace {
 
 constexpr float kBorderWidth = 0.01f;  // m: over this from a tendon's border on, a section becomes belly
+constexpr float kDeepAtRest = 0.003f;   // m
 constexpr float kOverlapSlack = 1.0e-4f;  // m: allowed at rest beyond what was found there
 
 // The bone that carries most of each slot's point.
@@ -135,8 +136,8 @@ float row_fraction(const CollisionAsset& asset, const SampleRow& row) {
 // Who may touch whom: everybody, but for what tags and ignored pairs say.
 void list_pairs(const CollisionDescription& description, CollisionAsset& asset) {
   const std::size_t muscle_count = asset.muscles->size(), bone_count = asset.bones.size();
-  asset.muscles_touch.assign(muscle_count * muscle_count, 1);
-  for (std::size_t m = 0; m < muscle_count; ++m) asset.muscles_touch[m * muscle_count + m] = 0;
+  asset.muscles_touch.assign(muscle_count * muscle_count, kTouch);
+  for (std::size_t m = 0; m < muscle_count; ++m) asset.muscles_touch[m * muscle_count + m] = kNeverTouch;
   asset.row_touches_bone.assign(asset.rows.size() * bone_count, 1);
   const auto place_of = [&](std::int32_t bone) {
     return static_cast<std::size_t>(std::find(asset.bones.begin(), asset.bones.end(), bone) - asset.bones.begin());
@@ -161,8 +162,8 @@ void list_pairs(const CollisionDescription& description, CollisionAsset& asset) 
   }
   for (const IgnoredPair& pair : description.ignored) {
     if (pair.bone < 0) {
-      asset.muscles_touch[pair.muscle * muscle_count + pair.other] = 0;
-      asset.muscles_touch[pair.other * muscle_count + pair.muscle] = 0;
+      asset.muscles_touch[pair.muscle * muscle_count + pair.other] = kNeverTouch;
+      asset.muscles_touch[pair.other * muscle_count + pair.muscle] = kNeverTouch;
     } else if (const std::size_t place = place_of(pair.bone); place < bone_count) {
       for (std::uint32_t r = asset.first_row[pair.muscle]; r < asset.first_row[pair.muscle + 1]; ++r) {
         asset.row_touches_bone[r * bone_count + place] = 0;
@@ -232,6 +233,11 @@ void allow_rest_overlaps(const CollisionDescription& description, std::span<cons
     } else {
       std::vector<float>& depths = overlaps[{contact.row, asset.sections[contact.other_section].muscle}];
       depths.resize(count, 0.0f);
+      if (depth > kDeepAtRest) {
+        const std::size_t m = asset.sections[contact.section].muscle, other = asset.sections[contact.other_section].muscle;
+        asset.muscles_touch[m * asset.muscles->size() + other] = kInterpenetrate;
+        asset.muscles_touch[other * asset.muscles->size() + m] = kInterpenetrate;
+      }
       depths[contact.sample] = std::max(depths[contact.sample], depth);
     }
   }

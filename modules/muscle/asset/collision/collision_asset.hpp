@@ -61,6 +61,13 @@ struct RestOverlap {
   std::uint32_t first_depth = 0;   // a depth a sample of the row, m, in CollisionAsset::rest_depths
 };
 
+// How two muscles meet.
+enum PairKind : std::uint8_t {
+  kNeverTouch = 0,
+  kTouch = 1,
+  kInterpenetrate = 2,  // they are deep in each other at rest: no side of either is where the other came from
+};
+
 // A tag at this level of detail.
 struct Transversal {
   std::uint32_t section = 0, vertex = 0;
@@ -93,7 +100,7 @@ struct CollisionAsset {
   std::vector<std::uint8_t> row_touches_bone;      // row * bones + place in `bones`: 1
   std::vector<std::uint32_t> row_bone_depths;      // likewise: the first of the row's depths in rest_depths, or kNoDepths
   std::vector<float> centre_bone_depths;           // section * bones + place: m, how deep a_k is at rest
-  std::vector<std::uint8_t> muscles_touch;         // muscle * muscles + other: 1
+  std::vector<std::uint8_t> muscles_touch;         // muscle * muscles + other: PairKind
   std::vector<std::uint32_t> first_overlap;        // by row, and one more
   std::vector<RestOverlap> overlaps;               // by row, others in order
   std::vector<float> rest_depths;                  // m, >= 0

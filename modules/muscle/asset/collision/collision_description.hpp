@@ -36,7 +36,7 @@ struct BoneTag {
   std::uint32_t muscle = 0;
   float from = 0.0f, to = 1.0f;       // fractions of the rest line's arc length
   std::vector<std::int32_t> bones;
-  bool automatic = false;
+  bool automatic = false;             // only tells: every bone is tested where no author's tag covers a section
   Diagnostic where;
 };
 

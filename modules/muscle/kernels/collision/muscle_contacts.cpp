@@ -79,7 +79,8 @@ class MuscleTest {
 
   void test(std::uint32_t r, std::uint32_t muscle, std::uint32_t segment) {
     const std::uint32_t other = asset_.sections[segment].muscle;
-    if (asset_.muscles_touch[muscle * asset_.muscles->size() + other] == 0 || work_.absent[other] != 0) return;
+    const std::uint8_t kind = asset_.muscles_touch[muscle * asset_.muscles->size() + other];
+    if (kind == kNeverTouch || work_.absent[other] != 0) return;
     if (!overlap(work_.row_boxes[r], work_.segment_boxes[segment], margin_ + reach_)) return;
     const glm::vec3 a0 = work_.a[segment], a1 = work_.a[segment + 1];
     const glm::vec3 t0 = work_.t[segment], t1 = work_.t[segment + 1];
@@ -103,7 +104,7 @@ class MuscleTest {
       if (before[i] < 0.0f || behind[i] >= 0.0f) continue;
       const float along = before[i] / (before[i] - behind[i]);
       const glm::vec3 p(x[i], y[i], z[i]);
-      if (may_touch(segment, along, p - glm::mix(a0, a1, along))) touch(r, i, segment, other, along, p);
+      if (may_touch(segment, along, p - glm::mix(a0, a1, along))) touch(r, i, segment, other, kind == kInterpenetrate, along, p);
     }
   }
 
@@ -132,7 +133,7 @@ class MuscleTest {
     return square <= bound * bound;
   }
 
-  void touch(std::uint32_t r, std::uint32_t i, std::uint32_t segment, std::uint32_t other, float along,
+  void touch(std::uint32_t r, std::uint32_t i, std::uint32_t segment, std::uint32_t other, bool deep, float along,
              const glm::vec3& p) {
     OutlineSegment outline;
     outline.count = asset_.sections[segment].count;
@@ -146,7 +147,7 @@ class MuscleTest {
     }
     // What overlaps at rest has no side that it came from: the nearest way out is the best there is.
     const float allowed = allowed_depth(r, i, other);
-    const bool any_side = at_rest_ || allowed > 0.0f;
+    const bool any_side = at_rest_ || deep || allowed > 0.0f;
     const glm::vec3 outward = any_side ? glm::vec3(0.0f) : sample_normal(asset_, work_, r, i);
     OutlinePoint point;
     if (!find_outline_point(outline, along, p, outward, margin_ + reach_, point)) return;

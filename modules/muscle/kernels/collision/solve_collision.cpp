@@ -144,7 +144,14 @@ void hold_areas(const CollisionAsset& asset, CollisionWork& work) {
     const std::span<float> radii(&work.radii[section.first_radius], section.count);
     const std::span<const std::uint8_t> pressed(&work.pressed[section.first_radius], section.count);
     const InflateOutcome outcome = inflate_section(radii, pressed, work.area_target[s], kLargestInflation);
-    if (outcome.kind == Inflation::kReached) continue;
+    // Where few are free they would have to stand out like spikes: no further than radii may be.
+    bool beyond = false;
+    for (std::uint32_t i = 0; i < section.count; ++i) {
+      const float most = work.most[section.first_radius + i];
+      beyond = beyond || radii[i] > most;
+      radii[i] = std::min(radii[i], most);
+    }
+    if (outcome.kind == Inflation::kReached && !beyond) continue;
     // Nothing is free, or too little: all radii take their share, and the contacts move a_k.
     const float area = section_area(radii);
     if (!(area > 0.0f)) continue;

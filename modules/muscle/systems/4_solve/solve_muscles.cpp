@@ -22,11 +22,11 @@ namespace {
 
 constexpr float kLineMass = 1.0f;            // of a_k, in the masses of its radii together
 constexpr float kLeastBelly = 0.4f, kMostBelly = 2.5f;  // of its length at rest, for the volume
-constexpr float kLeastRadius = 0.15f, kMostRadius = 2.5f;  // of a radius at rest, in a solve
-constexpr float kRoom = 0.5f;                // and of its section's mean radius on top
+constexpr float kLeastRadius = 0.15f, kMostRadius = 1.6f;  // of a radius at rest, in a solve
+constexpr float kRoom = 0.25f;               // and of its section's mean radius on top
 constexpr float kStill = 2.0e-5f;             // of a matrix' entry (m, or 1) a step: less is no movement
 constexpr float kJump = 0.2f;                 // of a matrix' entry (m, or 1) a step: another pose, not a movement
-constexpr int kRoundsAfterJump = 6;          // solves of the first step in a pose
+constexpr int kRoundsAfterJump = 1;          // solves of the first step in a pose
 constexpr float kSettles = 0.5f;             // s of a pose that stays, before the solve goes to rest
 constexpr float kSettlingTime = 0.08f;       // s
 constexpr float kLargestOffset = 0.5f;       // of the muscle's length at rest: beyond, the solve has diverged
