@@ -54,6 +54,16 @@ TEST_F(CollideCommand, AWalkIsMeasured) {
   EXPECT_THAT(out(), HasSubstr("\"not_finite\": 0"));
 }
 
+TEST_F(CollideCommand, AWalkIsDisturbed) {
+  ASSERT_EQ(run("walker --extremes --only frame --modes without --every 48"), 0) << err();
+  EXPECT_THAT(out(), HasSubstr("frame of 1/15 s"));
+  EXPECT_THAT(out(), HasSubstr(" during "));
+  EXPECT_THAT(out(), HasSubstr(" after "));
+  EXPECT_THAT(out(), HasSubstr("1.60 s"));  // out of bounds to the end
+  EXPECT_THAT(out(), Not(HasSubstr("teleport")));
+  EXPECT_THAT(out(), Not(HasSubstr("NOT FINITE")));
+}
+
 TEST_F(CollideCommand, FilesThatCannotBeWritten) {
   EXPECT_EQ(run("walker --modes without --frames 1 --csv /dev/null/c.csv"), 1);
   EXPECT_THAT(err(), HasSubstr("c.csv"));
