@@ -18,6 +18,8 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
 test::BoneFields body_bones() {
   test::BoneFields fields(test::kSyntheticBones);
   for (const std::size_t bone : {test::kFemurLeft, test::kTibiaLeft, test::kFemurRight, test::kTibiaRight}) {
@@ -39,7 +41,8 @@ std::uint64_t hash_collision(const ecs::World& world, ecs::Entity musculature) {
   }
   hash.add(std::span<const float>(collision.depth));
   for (const MuscleContact& contact : world.get<MuscleContacts>(musculature).now) {
-    const std::uint32_t ids[] = {contact.muscle, static_cast<std::uint32_t>(contact.bone), contact.other, contact.points};
+    const std::uint32_t ids[] = {contact.muscle, static_cast<std::uint32_t>(contact.bone), contact.other,
+                                 contact.points};
     const float values[] = {contact.depth, contact.left, contact.place.x, contact.normal.y};
     hash.add(std::span<const std::uint32_t>(ids));
     hash.add(std::span<const float>(values));
@@ -104,8 +107,8 @@ TEST(CollisionFrame, NothingIsAllocated) {
     Walkers w(workers, 3);
     for (int frame = 0; frame < 18; ++frame) {
       w.walk(frame);
-      if (frame == 11) w.world.get<BoneMatrices>(w.characters[0]).world[2][3].x = std::numeric_limits<float>::quiet_NaN();
-      if (frame == 13) w.world.get<MuscleCollision>(w.musculatures[1]).radii[40] = std::numeric_limits<float>::quiet_NaN();
+      if (frame == 11) w.world.get<BoneMatrices>(w.characters[0]).world[2][3].x = kNaN;
+      if (frame == 13) w.world.get<MuscleCollision>(w.musculatures[1]).radii[40] = kNaN;
       if (frame == 14 || frame == 16) {
         bool& enabled = w.world.get<MuscleCollision>(w.musculatures[2]).settings.enabled;
         enabled = !enabled;

@@ -244,7 +244,8 @@ TEST(SolveMuscles, MirroredSceneGivesTheMirroredResult) {
 TEST(SolveMuscles, RigidMotionChangesNoDeformation) {
   RodWorld still(crossing_rods(), {nullptr, nullptr}), moving(crossing_rods(), {nullptr, nullptr});
   for (int i = 0; i <= 60; ++i) {
-    const glm::mat4 upper = glm::translate(glm::mat4(1.0f), {0, -0.016f * std::min(1.0f, 0.05f * static_cast<float>(i)), 0});
+    const float way = std::min(1.0f, 0.05f * static_cast<float>(i));
+    const glm::mat4 upper = glm::translate(glm::mat4(1.0f), {0, -0.016f * way, 0});
     still.place_bone(1, upper);
     // Turning, and far away all at once in the middle.
     const glm::vec3 place = i < 30 ? glm::vec3(0.1f * static_cast<float>(i), 0, 0) : glm::vec3(40, -30, 20);

@@ -200,7 +200,8 @@ TEST(BoneContacts, ValueFollowsCentresAndRadii) {
   const std::vector<Contact> contacts = state.work.contacts;
   ASSERT_FALSE(contacts.empty());
   for (std::size_t s = 0; s < state.asset->sections.size(); ++s) {
-    state.work.a[s] += 0.001f * glm::vec3(std::sin(3.0f * static_cast<float>(s)), std::cos(static_cast<float>(s)), 0.3f);
+    const float turn = static_cast<float>(s);
+    state.work.a[s] += 0.001f * glm::vec3(std::sin(3.0f * turn), std::cos(turn), 0.3f);
   }
   for (std::size_t i = 0; i < state.asset->muscles->rest_radii.size(); ++i) {
     state.work.radii[i] += 0.001f * std::sin(static_cast<float>(i));

@@ -57,7 +57,8 @@ std::set<Touch> search(const test::CollisionState& state, float least_depth, flo
           segment.v[k] = work.v[n + k];
         }
         OutlinePoint point;
-        if (find_outline_point(segment, before / (before - behind), p, sample_normal(asset, work, r, i), reach, point) &&
+        const glm::vec3 outward = sample_normal(asset, work, r, i);
+        if (find_outline_point(segment, before / (before - behind), p, outward, reach, point) &&
             -point.distance >= least_depth) {
           found.insert({r, i, other});
         }
@@ -135,7 +136,9 @@ TEST(MuscleContacts, CrossingRodsOverlapWhereTheyCross) {
   state.move(1, {0, -0.025f, 0});
   state.find();
   EXPECT_NEAR(state.deepest(), 0.005f, 3.0f * kSagitta);
-  for (const Contact& contact : state.work.contacts) EXPECT_LT(glm::length(contact.place - glm::vec3(0, 0.0175f, 0)), 0.03f);
+  for (const Contact& contact : state.work.contacts) {
+    EXPECT_LT(glm::distance(contact.place, glm::vec3(0, 0.0175f, 0)), 0.03f);
+  }
 }
 
 TEST(MuscleContacts, WhatOverlapsAtRestMayStayAsDeep) {

@@ -181,7 +181,8 @@ TEST(SectionOutline, AnyShapeAgreesWithASearchOverAllItsPoints) {
     const auto first = [&](float a) {
       return 0.02f * (1.0f + lobes * std::cos(3.0f * a + turn) + flat * std::cos(2.0f * a));
     };
-    const auto second = [&](float a) { return (shape % 2 == 0 ? 1.0f : 0.6f) * first(a + (shape % 2 == 0 ? 0 : 0.3f)); };
+    const bool same = shape % 2 == 0;
+    const auto second = [&](float a) { return same ? first(a) : 0.6f * first(a + 0.3f); };
     const Section section(24, first, second, kAhead);
     for (int i = 0; i < 40; ++i) {
       const float along = numbers.next();
