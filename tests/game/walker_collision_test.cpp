@@ -245,19 +245,18 @@ float sum_beyond(const CollideRun& run, bool bones) {
   return sum;
 }
 
-// Its round muscles are up to 30 mm deep in each other at rest, 14 mm in bones.
+// Its round muscles are up to 30 mm deep in each other at rest and 14 mm in bones, so that the deepest of all tells
+// little of what the walk adds, with collision or without: pairs do.
 TEST(Gait2392Collision, HalvesWhatItsWalkPressesIn) {
   FASCICLE_SKIP_WITHOUT_DATA("opensim/walk.mot");
   const auto scene = load("gait2392");
   ASSERT_TRUE(scene);
   const CollideReport report = run_collide(scene, {CollideMode::kWithout, CollideMode::kWith},
-                                           {.frames = 80, .every = 8, .spacing = kCoarse});
+                                           {.frames = 80, .every = 10});
   ASSERT_EQ(report.runs.size(), 2u);
   expect_steady(report.runs[1]);
   const Worst with(report, CollideMode::kWith), without(report, CollideMode::kWithout);
-  EXPECT_GT(without.beyond.bone, 0.0f);
   EXPECT_GT(without.beyond.muscle, 0.0f);
-  EXPECT_LE(with.beyond.bone, 0.5f * without.beyond.bone);
   EXPECT_LE(with.beyond.muscle, 0.5f * without.beyond.muscle);
   EXPECT_LT(with.area, kAreaBound);
   EXPECT_LE(with.beyond.bone_pair, 0.5f * without.beyond.bone_pair);
