@@ -145,7 +145,8 @@ void add_collide(CLI::App& program, Command& chosen) {
   command->add_option("--frames", options->frames, "Steps (those of --cycles)");
   command->add_option("--hz", options->hz, "Steps a second (the scene's)")->check(within(1.0, 1000.0));
   command->add_option("--cycles", options->cycles, "Lengths of the animation (10)")->check(within(0.01, 1e4));
-  command->add_option("--every", options->every, "Measure one step in so many (1; of extremes 6)")->check(CLI::Range(1, 1000000));
+  command->add_option("--every", options->every, "Measure one step in so many (1; of extremes 6)")
+      ->check(CLI::Range(1, 1000000));
   command->add_option("--modes", options->modes, "Of: without, with, legacy (all that the character has)")
       ->delimiter(',')
       ->check(CLI::IsMember({"without", "with", "legacy"}));
