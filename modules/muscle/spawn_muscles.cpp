@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 7> kTimedSystems = {
     "write_surfaces"};
 
 // Room for pairs that touch: a muscle among its neighbours and bones.
-constexpr std::size_t kContactsPerMuscle = 24;
+constexpr std::size_t kContactsPerMuscle = 8;
 
 template <class T>
 void hash_arrays(std::initializer_list<const AlignedVector<T>*> arrays, StateHash& hash) {

@@ -72,6 +72,13 @@ float reach_along(const RowDisc& disc, const glm::vec3& direction) {
   return disc.radius * std::sqrt(std::max(1.0f - along * along, 0.0f)) + disc.thickness * std::abs(along);
 }
 
+// Where a row's samples are against a segment.
+struct RowPlaces {
+  float along[kMaxRowSamples];                    // fraction from the first section to the second; negative: beyond
+  float u[kMaxRowSamples], v[kMaxRowSamples];     // m, from the centre line
+  float square[kMaxRowSamples];                   // m^2, the distance from it
+};
+
 class MuscleTest {
  public:
   MuscleTest(const CollisionAsset& asset, float margin, float reach, bool at_rest, CollisionWork& work)
@@ -95,31 +102,37 @@ class MuscleTest {
     const float* x = &work_.sample_x[row.first_sample];
     const float* y = &work_.sample_y[row.first_sample];
     const float* z = &work_.sample_z[row.first_sample];
-    float before[kMaxRowSamples], behind[kMaxRowSamples];  // m, along each section's normal
+    // All samples at once: how far along the segment they are, and where from its centre line.
+    const glm::vec3 u0 = work_.u[segment], u1 = work_.u[segment + 1], v0 = work_.v[segment], v1 = work_.v[segment + 1];
+    RowPlaces& at = places_;
     for (std::uint32_t i = 0; i < row.sample_count; ++i) {
-      before[i] = (x[i] - a0.x) * t0.x + (y[i] - a0.y) * t0.y + (z[i] - a0.z) * t0.z;
-      behind[i] = (x[i] - a1.x) * t1.x + (y[i] - a1.y) * t1.y + (z[i] - a1.z) * t1.z;
+      const float before = (x[i] - a0.x) * t0.x + (y[i] - a0.y) * t0.y + (z[i] - a0.z) * t0.z;
+      const float behind = (x[i] - a1.x) * t1.x + (y[i] - a1.y) * t1.y + (z[i] - a1.z) * t1.z;
+      const float along = before / (before - behind);  // 0 to 1 between the sections, elsewhere whatever
+      const float dx = x[i] - (a0.x + along * (a1.x - a0.x));
+      const float dy = y[i] - (a0.y + along * (a1.y - a0.y));
+      const float dz = z[i] - (a0.z + along * (a1.z - a0.z));
+      at.u[i] = dx * (u0.x + along * (u1.x - u0.x)) + dy * (u0.y + along * (u1.y - u0.y)) +
+                dz * (u0.z + along * (u1.z - u0.z));
+      at.v[i] = dx * (v0.x + along * (v1.x - v0.x)) + dy * (v0.y + along * (v1.y - v0.y)) +
+                dz * (v0.z + along * (v1.z - v0.z));
+      at.along[i] = (before >= 0.0f) & (behind < 0.0f) ? along : -1.0f;
+      at.square[i] = dx * dx + dy * dy + dz * dz;
     }
+    const float furthest = std::max(work_.widest[segment], work_.widest[segment + 1]) + margin_ + reach_;
+    const bool turned = work_.turned[segment] != 0 || work_.turned[segment + 1] != 0;
     for (std::uint32_t i = 0; i < row.sample_count; ++i) {
-      if (before[i] < 0.0f || behind[i] >= 0.0f) continue;
-      const float along = before[i] / (before[i] - behind[i]);
-      const glm::vec3 p(x[i], y[i], z[i]);
-      if (may_touch(segment, along, p - glm::mix(a0, a1, along))) touch(r, i, segment, other, kind == kInterpenetrate, along, p);
+      if (at.along[i] < 0.0f || at.square[i] > furthest * furthest) continue;
+      if (!turned && !may_touch(segment, at.along[i], at.u[i], at.v[i], at.square[i])) continue;
+      touch(r, i, segment, other, kind == kInterpenetrate, at.along[i], glm::vec3(x[i], y[i], z[i]));
     }
   }
 
  private:
   // False where a point is certainly out of reach of the outline: further from the centre than the radii towards it.
-  bool may_touch(std::uint32_t segment, float along, const glm::vec3& from_centre) const {
-    const float reach = margin_ + reach_;
-    const float widest = std::max(work_.widest[segment], work_.widest[segment + 1]) + reach;
-    const float square = glm::dot(from_centre, from_centre);
-    if (square > widest * widest) return false;
-    if (work_.turned[segment] != 0 || work_.turned[segment + 1] != 0) return true;
-    const glm::vec3 u = glm::mix(work_.u[segment], work_.u[segment + 1], along);
-    const glm::vec3 v = glm::mix(work_.v[segment], work_.v[segment + 1], along);
+  bool may_touch(std::uint32_t segment, float along, float u, float v, float square) const {
     const CollisionSection& section = asset_.sections[segment];
-    const float turn = turn_of(glm::dot(from_centre, u), glm::dot(from_centre, v)) * static_cast<float>(section.count);
+    const float turn = turn_of(u, v) * static_cast<float>(section.count);
     const std::uint32_t i = static_cast<std::uint32_t>(turn) + section.count - 1;  // the vertex before
     const float* first = &work_.radii[section.first_radius];
     const float* second = &work_.radii[asset_.sections[segment + 1].first_radius];
@@ -129,7 +142,7 @@ class MuscleTest {
       while (at >= section.count) at -= section.count;
       largest = std::max(largest, first[at] + along * (second[at] - first[at]));
     }
-    const float bound = kSlack * largest + reach;
+    const float bound = kSlack * largest + margin_ + reach_;
     return square <= bound * bound;
   }
 
@@ -172,6 +185,7 @@ class MuscleTest {
   }
 
   const CollisionAsset& asset_;
+  RowPlaces places_;
   float margin_, reach_;
   bool at_rest_;
   CollisionWork& work_;

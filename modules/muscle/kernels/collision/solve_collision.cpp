@@ -16,8 +16,9 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr float kReach = 0.0025f;         // m: contacts are found this far ahead of a step
-constexpr float kMostPush = 0.0015f;      // m, of a contact in a substep: it knows no more than its neighbourhood
+// Of the samples' spacing, which is what tells an elephant from a mouse:
+constexpr float kReach = 0.2f;            // contacts are found this far ahead of a step
+constexpr float kMostPush = 0.125f;       // of a contact in a substep: it knows no more than its neighbourhood
 constexpr float kRadiusPull = 0.2f, kLinePull = 4.0f;  // of the times to the shape at rest
 constexpr float kHolds = 0.0002f;         // m: nearer than this a contact keeps its radii from growing
 constexpr float kHoldingLever = 0.1f;     // of a contact on a radius
@@ -118,9 +119,10 @@ void find_contacts(const CollisionAsset& asset, const CollisionSettings& setting
                    CollisionWork& work, bool at_rest) {
   work.contacts.clear();
   place_samples(asset, work);
-  find_bone_contacts(asset, bones, settings.bone_margin, kReach, work);
+  const float reach = kReach * settings.sample_spacing;
+  find_bone_contacts(asset, bones, settings.bone_margin, reach, work);
   fill_grid(asset, work);
-  find_muscle_contacts(asset, settings.muscle_margin, kReach, at_rest, work);
+  find_muscle_contacts(asset, settings.muscle_margin, reach, at_rest, work);
 }
 
 void project_contacts(CollisionWork& work) {
@@ -165,7 +167,7 @@ void begin_substep(const CollisionAsset& asset, const CollisionSettings& setting
   if (refresh) refresh_bone_contacts(asset, bones, settings.bone_margin, work);
   for (Contact& contact : work.contacts) {
     contact.value = contact_value(contact, work);
-    contact.bias = std::min(contact.value + kMostPush, 0.0f);
+    contact.bias = std::min(contact.value + kMostPush * settings.sample_spacing, 0.0f);
     contact.push = 0.0f;
   }
 }
