@@ -37,7 +37,7 @@ class CharacterImport {
     line(fmt::format("\"skeleton\": {{ \"joints\": {} }},", write_joint_model(model_.joints, 2)));
     write_geometry();
     line("\"attachment_space\": \"bone\",");
-    line("\"level\": { \"section_vertices\": 8, \"longitudinal_subdivision\": 1 },");
+    line("\"level\": { \"section_vertices\": 8, \"longitudinal_subdivision\": 2 },");
     line(fmt::format("\"specific_tension\": {},", json_number(options_.specific_tension)));
     write_muscles();
     text_ += "}\n";

@@ -173,7 +173,13 @@ TEST(ImportOsim, TheShippedCharacterIsUpToDate) {
   const auto shipped = read_text_file(std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "characters" /
                                       "gait2392" / "gait2392.character.json");
   ASSERT_TRUE(text.ok() && shipped.ok());
-  EXPECT_TRUE(*text == *shipped) << "make it anew: fascicle-cook import-osim gait2392.osim --out "
+  // But for the line that fascicle-cook constrain has added.
+  std::string imported = *shipped;
+  const std::string reference = "  \"collision\": \"gait2392.collision.json\",\n";
+  const std::size_t at = imported.find(reference);
+  ASSERT_NE(at, std::string::npos);
+  imported.erase(at, reference.size());
+  EXPECT_TRUE(*text == imported) << "make it anew: fascicle-cook import-osim gait2392.osim --out "
                                     "content/characters/gait2392/gait2392.character.json";
 }
 
