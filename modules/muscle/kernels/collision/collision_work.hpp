@@ -65,6 +65,7 @@ struct CollisionWork {
   // By MuscleAsset::radius.
   AlignedVector<float> radii, wanted;                    // m; the wanted ones have the target area
   AlignedVector<float> least, most;                      // m
+  AlignedVector<float> sector;                           // m: the largest radius about those of vertex i and i + 1
   AlignedVector<float> dir_x, dir_y, dir_z;              // unit, from a_k to the vertex
   AlignedVector<float> vertex_x, vertex_y, vertex_z;     // m, world
   std::vector<std::uint8_t> pressed;                     // 1: a contact holds the radius

@@ -132,16 +132,10 @@ class MuscleTest {
   // False where a point is certainly out of reach of the outline: further from the centre than the radii towards it.
   bool may_touch(std::uint32_t segment, float along, float u, float v, float square) const {
     const CollisionSection& section = asset_.sections[segment];
-    const float turn = turn_of(u, v) * static_cast<float>(section.count);
-    const std::uint32_t i = static_cast<std::uint32_t>(turn) + section.count - 1;  // the vertex before
-    const float* first = &work_.radii[section.first_radius];
-    const float* second = &work_.radii[asset_.sections[segment + 1].first_radius];
-    float largest = 0.0f;
-    for (std::uint32_t j = 0; j < 4; ++j) {
-      std::uint32_t at = i + j;
-      while (at >= section.count) at -= section.count;
-      largest = std::max(largest, first[at] + along * (second[at] - first[at]));
-    }
+    const std::uint32_t i = static_cast<std::uint32_t>(turn_of(u, v) * static_cast<float>(section.count));
+    const float first = work_.sector[section.first_radius + i];
+    const float second = work_.sector[asset_.sections[segment + 1].first_radius + i];
+    const float largest = first + along * (second - first);
     const float bound = kSlack * largest + margin_ + reach_;
     return square <= bound * bound;
   }

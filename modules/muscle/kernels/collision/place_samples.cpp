@@ -58,6 +58,12 @@ void place_vertices(const CollisionAsset& asset, CollisionWork& work) {
     }
     work.widest[s] = widest;
     work.turned[s] = least < 0.0f;
+    const float* r = &work.radii[first];
+    const std::uint32_t n = section.count;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t before = i == 0 ? n - 1 : i - 1, next = i + 1 == n ? 0 : i + 1, last = next + 1 == n ? 0 : next + 1;
+      work.sector[first + i] = std::max(std::max(r[before], r[i]), std::max(r[next], r[last]));
+    }
   }
 }
 
