@@ -32,7 +32,6 @@ struct MuscleCollision {
   // else changes a muscle's rest sets `still` to 0.
   float still = 0.0f;  // s
   std::vector<glm::mat4> pose;
-  std::uint64_t pose_steps = 0;  // solved so far
   CollisionSettings solved;
   AlignedVector<float> carried[4];                    // scratch of a change of level
 

@@ -63,10 +63,11 @@ struct CollisionSettings {
   float shape_time = 0.06f;           // s, radii to the rest shape
   float line_time = 0.06f;            // s, a_k to where the bones carry it
   float via_time = 0.02f;             // s, the same for the sections at via points
-  float smoothing = 0.5f;             // 0..1: how much of a section's displacement its neighbours follow
+  float smoothing = 0.5f;             // 0..1: how strongly neighbours, along the line and round a section, pull alike
   float bone_margin = 0.0f;           // m kept between muscles and bones
   float muscle_margin = 0.0f;         // m kept between muscles
-  float sample_spacing = 0.012f;      // m: between sections further apart than this the surface is tested too
+  float sample_spacing = 0.012f;      // m: the surface is tested in points about this far apart; to be the larger, the
+                                      // larger the character, for what a contact looks ahead and pushes goes with it
   float bone_voxel = 0.002f;          // m: of the bones' fields
   bool keep_volume = true;            // belly sections widen as their muscle shortens
 

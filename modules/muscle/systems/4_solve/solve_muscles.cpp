@@ -25,8 +25,6 @@ constexpr float kLeastBelly = 0.4f, kMostBelly = 2.5f;  // of its length at rest
 constexpr float kLeastRadius = 0.15f, kMostRadius = 1.6f;  // of a radius at rest, in a solve
 constexpr float kRoom = 0.25f;               // and of its section's mean radius on top
 constexpr float kStill = 2.0e-5f;             // of a matrix' entry (m, or 1) a step: less is no movement
-constexpr float kJump = 0.2f;                 // of a matrix' entry (m, or 1) a step: another pose, not a movement
-constexpr int kRoundsAfterJump = 1;          // solves of the first step in a pose
 constexpr float kSettles = 0.5f;             // s of a pose that stays, before the solve goes to rest
 constexpr float kSettlingTime = 0.08f;       // s
 constexpr float kLargestOffset = 0.5f;       // of the muscle's length at rest: beyond, the solve has diverged
@@ -88,34 +86,26 @@ void load(const Musculature& musculature, const MuscleCollision& collision, cons
   }
 }
 
-// How much of a step's change counts, and whether the pose has jumped to another one.
-struct Pace {
-  float amount = 1.0f;
-  bool jumped = false;
-};
-
 // How much of a step's change counts: all of it while the pose changes, and less and less after it has come to rest.
 // What is left of contacts that take turns then dies away.
-Pace settle(const BoneMatrices& bones, float step, MuscleCollision& collision) {
+float settle(const BoneMatrices& bones, float step, MuscleCollision& collision) {
   const std::uint32_t bone_count = collision.asset->bone_count;
   const bool known = collision.pose.size() == bone_count && collision.solved == collision.settings;
   if (!known) collision.pose.resize(bone_count);
   collision.solved = collision.settings;
   const glm::mat3 turn = glm::transpose(glm::mat3(bones.world[0]));
-  bool moved = !known, jumped = collision.pose_steps == 0;
+  bool moved = !known;
   for (std::uint32_t i = 0; i < bone_count; ++i) {
     glm::mat4 pose(turn * glm::mat3(bones.world[i]));
     pose[3] = glm::vec4(turn * glm::vec3(bones.world[i][3] - bones.world[0][3]), 1.0f);
     for (int column = 0; column < 4; ++column) {
       const glm::vec3 change = glm::abs(glm::vec3(pose[column] - collision.pose[i][column]));
       moved = moved || !glm::all(glm::lessThanEqual(change, glm::vec3(kStill)));  // NaN moves, and so does its end
-      jumped = jumped || glm::any(glm::greaterThan(change, glm::vec3(kJump)));
     }
     if (moved) collision.pose[i] = pose;
   }
-  ++collision.pose_steps;
   collision.still = moved ? 0.0f : collision.still + step;
-  return {collision.still <= kSettles ? 1.0f : std::exp(-(collision.still - kSettles) / kSettlingTime), jumped};
+  return collision.still <= kSettles ? 1.0f : std::exp(-(collision.still - kSettles) / kSettlingTime);
 }
 
 void blend(const CollisionAsset& asset, const MuscleCollision& collision, const BoneMatrices& bones, float amount,
@@ -225,12 +215,9 @@ void solve_muscles(ecs::View<const Musculature, MuscleCollision, MuscleContacts,
     const CollisionAsset& asset = *collision.asset;
     work.overflow = false;
     load(musculature, collision, *bones, lines, sections, work);
-    const Pace pace = settle(*bones, time->step, collision);
-    const int rounds = pace.jumped ? kRoundsAfterJump : 1;
-    for (int i = 0; i < rounds; ++i) {
-      solve_collision(asset, collision.settings, bones->world, time->step, work);
-    }
-    blend(asset, collision, *bones, pace.amount, work);
+    const float amount = settle(*bones, time->step, collision);
+    solve_collision(asset, collision.settings, bones->world, time->step, work);
+    blend(asset, collision, *bones, amount, work);
     for (std::uint32_t m = 0; m < asset.muscles->size(); ++m) {
       if (is_sound(asset, work, m)) continue;
       fall_back(asset, m, work);
