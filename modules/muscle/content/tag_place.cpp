@@ -65,14 +65,6 @@ std::uint32_t nearest_section(const MuscleAsset& asset, std::uint32_t muscle, fl
 
 }  // namespace
 
-glm::vec3 rest_vertex(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section, std::uint32_t vertex) {
-  const Frame frame = section_frame(asset, muscle, section);
-  const float angle =
-      kTurn * static_cast<float>(vertex) / static_cast<float>(asset.muscles[muscle].section_vertices);
-  return frame.centre + asset.rest_radii[asset.radius(muscle, section) + vertex] *
-                            (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
-}
-
 SectionTag tag_of(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section, std::uint32_t vertex) {
   const MuscleLayout& layout = asset.muscles[muscle];
   const float length = asset.rest_arc[asset.slot(muscle, layout.section_count - 1)];

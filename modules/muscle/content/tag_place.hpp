@@ -6,13 +6,11 @@
 
 #include <glm/vec3.hpp>
 
+#include "modules/muscle/asset/collision/collision_asset.hpp"
 #include "modules/muscle/asset/collision/collision_description.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 
 namespace fascicle::muscle {
-
-// m: vertex c_i^k at rest, in the rest bones' space.
-glm::vec3 rest_vertex(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section, std::uint32_t vertex);
 
 // The tag of vertex i of section k.
 SectionTag tag_of(const MuscleAsset& asset, std::uint32_t muscle, std::uint32_t section, std::uint32_t vertex);

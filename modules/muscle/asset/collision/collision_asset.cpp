@@ -67,16 +67,6 @@ void list_sections(CollisionAsset& asset) {
   asset.first_section.push_back(static_cast<std::uint32_t>(asset.sections.size()));
 }
 
-// The rest place of a vertex.
-glm::vec3 rest_vertex(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k, std::uint32_t i) {
-  const std::uint32_t slot = muscles.slot(m, k);
-  const Circle& circle = muscles.circles[muscles.layouts[m].circle];
-  const glm::vec3 u(muscles.rest_ux[slot], muscles.rest_uy[slot], muscles.rest_uz[slot]);
-  const glm::vec3 v(muscles.rest_vx[slot], muscles.rest_vy[slot], muscles.rest_vz[slot]);
-  return rest_point(muscles, m, k) +
-         muscles.rest_radii[muscles.radius(m, k) + i] * (circle.cosines[i] * u + circle.sines[i] * v);
-}
-
 // A row's samples: the meridians, and between those that are far apart as many as keep the spacing.
 void add_row(std::uint32_t section, float weight, float spacing, CollisionAsset& asset) {
   const MuscleAsset& muscles = *asset.muscles;
@@ -282,7 +272,6 @@ void list_transversals(const CollisionDescription& description, std::span<const 
                                work.radii[radius] * glm::vec3(work.dir_x[radius], work.dir_y[radius], work.dir_z[radius]);
       const glm::mat4& rest = rest_bones[bone];
       transversal.point = nearest_on_bone(*fields[bone], (vertex - glm::vec3(rest[3])) * glm::mat3(rest));
-      transversal.normal = fields[bone]->at(transversal.point).gradient;
     } else {
       const TaggedVertex second = find_tagged_vertex(*asset.muscles, tag.second);
       transversal.other_section = asset.first_section[tag.second.muscle] + second.section;
@@ -294,6 +283,15 @@ void list_transversals(const CollisionDescription& description, std::span<const 
 }
 
 }  // namespace
+
+glm::vec3 rest_vertex(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k, std::uint32_t i) {
+  const std::uint32_t slot = muscles.slot(m, k);
+  const Circle& circle = muscles.circles[muscles.layouts[m].circle];
+  const glm::vec3 u(muscles.rest_ux[slot], muscles.rest_uy[slot], muscles.rest_uz[slot]);
+  const glm::vec3 v(muscles.rest_vx[slot], muscles.rest_vy[slot], muscles.rest_vz[slot]);
+  return rest_point(muscles, m, k) +
+         muscles.rest_radii[muscles.radius(m, k) + i] * (circle.cosines[i] * u + circle.sines[i] * v);
+}
 
 TaggedVertex find_tagged_vertex(const MuscleAsset& muscles, const SectionTag& tag) {
   const MuscleLayout& layout = muscles.muscles[tag.muscle];

@@ -74,7 +74,6 @@ struct Transversal {
   std::int32_t bone = -1;                 // >= 0: then `point` in its frame is the other end
   std::uint32_t other_section = 0, other_vertex = 0;
   glm::vec3 point{0.0f};                  // m
-  glm::vec3 normal{0.0f};                 // unit: out of the bone there, in its frame
   float rest_depth = 0.0f;                // m: measured at rest, allowed for
   bool first_yields = true, second_yields = true;
   bool sweeps = false;
@@ -114,6 +113,9 @@ std::shared_ptr<const CollisionAsset> build_collision_asset(std::shared_ptr<cons
                                                             const CollisionDescription& description,
                                                             std::span<const std::shared_ptr<const BoneField>> fields,
                                                             std::span<const glm::mat4> rest_bones);
+
+// The rest place of vertex i of section k of muscle m (m).
+glm::vec3 rest_vertex(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k, std::uint32_t i);
 
 // The section and vertex at a tag's place.
 struct TaggedVertex {

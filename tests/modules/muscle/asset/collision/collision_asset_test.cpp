@@ -35,7 +35,7 @@ std::shared_ptr<const CollisionAsset> collision_of(std::shared_ptr<const MuscleA
 }
 
 // Row k, vertex i at rest.
-glm::vec3 rest_vertex(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k, std::uint32_t i) {
+glm::vec3 vertex_at_rest(const MuscleAsset& muscles, std::uint32_t m, std::uint32_t k, std::uint32_t i) {
   const std::uint32_t slot = muscles.slot(m, k);
   const Circle& circle = muscles.circles[muscles.layouts[m].circle];
   const glm::vec3 u(muscles.rest_ux[slot], muscles.rest_uy[slot], muscles.rest_uz[slot]);
@@ -89,7 +89,7 @@ TEST(CollisionAsset, SamplesLieOnDrawnTriangles) {
     const std::uint32_t* strip = &muscles->strip_indices[layout.first_strip_index + k * row_length];
     const auto drawn = [&](std::uint32_t index) {
       const std::uint32_t vertex = index - layout.first_vertex;
-      return rest_vertex(*muscles, m, vertex / count, vertex % count);
+      return vertex_at_rest(*muscles, m, vertex / count, vertex % count);
     };
     for (std::uint32_t i = 0; i < row.sample_count; ++i) {
       const std::uint32_t s = row.first_sample + i;
