@@ -142,7 +142,6 @@ TEST(KeepSides, BonesAreTheOtherEndToo) {
   const Transversal& line = state.asset->transversals.at(0);
   EXPECT_NEAR(line.point.x, 0.03f, 1.0e-3f);
   EXPECT_NEAR(line.point.z, 0.0f, 1.0e-3f);
-  EXPECT_LT(line.normal.x, -0.9f);
   EXPECT_TRUE(line.first_yields);
   state.work.a[line.section].x += 0.045f;  // beyond the bone's near side by 15 mm and its own radius
   state.place();
