@@ -1,0 +1,60 @@
+// What a surface muscle is before it is built: a closed mesh that deforms as a whole, its attachments to bones, the
+// fibres on it and how stiff it is. Fields of a content file, or what a program fills in by hand; `build_surface_asset`
+// turns a description into the immutable, solver-ready SurfaceAsset.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/content/result.hpp"
+#include "engine/content/triangle_mesh.hpp"
+
+namespace fascicle::muscle {
+
+// Vertices that follow one bone with infinite mass, at the places that they have at rest.
+struct SurfaceAttachment {
+  std::int32_t bone = -1;                // index into the skeleton
+  bool origin = true;                    // else: insertion. Only fibres ask.
+  std::vector<std::uint32_t> vertices;   // of the description's mesh; each in one attachment at most
+};
+
+// Fibres given on the muscle's surface or near it, for anisotropy and for the surface-fibre method (4.4).
+struct FibreLine {
+  std::vector<glm::vec3> points;         // m, rest space; 2 or more, from the origin to the insertion where known
+  std::uint32_t head = 0;
+};
+
+// Compliances are those of XPBD: what a constraint of the muscle's mass gives way, whatever the substeps. Zero is rigid.
+struct SurfaceSettings {
+  std::uint32_t substeps = 6;            // a step
+  std::uint32_t iterations = 1;          // of all constraints, a substep
+  float density = 1060.0f;               // kg/m^3
+  float stretch_compliance = 0.0f;       // m/N, of an edge across the fibres
+  float along_fibres = 0.1f;             // 0..1: the least k = 1 - |u . v| (4.1); an edge's compliance is alpha / k
+  float bend_compliance = 1.0f;          // rad/(N m), of a dihedral angle
+  float volume_compliance = 0.0f;        // m^3/Pa
+  float damping = 2.0f;                  // 1/s: velocities beside the bones' fade by exp(-damping t)
+  float viscosity = 60.0f;               // 1/s: velocities' differences along edges fade
+  float contact_distance = 0.0012f;      // m from bones at which vertices are kept
+  float friction = 0.0f;                 // Coulomb's coefficient against bones
+  bool collide_with_bones = true;
+  bool collide_with_itself = false;
+  bool collide_with_muscles = true;      // other surface muscles of the character
+};
+
+struct SurfaceMuscleDescription {
+  std::string name;
+  TriangleMesh mesh;                     // m, in the character's rest space: closed, orientable, one piece
+  std::vector<SurfaceAttachment> attachments;  // may be empty: a free body
+  std::int32_t frame_bone = 0;           // the simulation's frame: the muscle moves with it at no cost
+  std::vector<std::int32_t> bones;       // that it collides with; those without a field are passed over
+  std::vector<FibreLine> fibres;
+  std::string driver;                    // name of the musculotendon unit that carries it; empty: its bones do
+  SurfaceSettings settings;
+  Diagnostic where;                      // file, line, column and path to quote in errors; empty: made in code
+};
+
+}  // namespace fascicle::muscle

@@ -1,0 +1,82 @@
+// State: a muscle that is a deforming mesh, on an entity of its own. Its points live in the *simulation's frame*: the
+// character's rest space, moved with the asset's frame bone, so that a character may stand anywhere and turn as it
+// likes. world = frame * point.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/ecs/entity.hpp"
+#include "engine/math/aligned_vector.hpp"
+#include "modules/muscle/asset/collision/bone_field.hpp"
+#include "modules/muscle/asset/surface/surface_asset.hpp"
+#include "modules/muscle/components/muscle_surfaces.hpp"
+
+namespace fascicle::muscle {
+
+struct SurfaceMuscle {
+  std::shared_ptr<const SurfaceAsset> asset;
+  ecs::Entity character;     // has BoneMatrices
+  ecs::Entity musculature;   // of the driver; kNoEntity: its bones carry it
+  std::uint32_t driver = 0;  // index of the driving muscle in it
+  std::vector<glm::mat4> rest_to_bone;                     // by bone: inverse of its rest matrix
+  std::vector<std::shared_ptr<const BoneField>> fields;    // by bone; null where it has none
+};
+
+struct SurfaceState {
+  AlignedVector<SurfacePoint> points;       // m, simulation's frame; vertices and padding
+  AlignedVector<SurfacePoint> before;       // at the substep's start, the carriers' motion included
+  AlignedVector<SurfacePoint> velocity;     // m/s beside the carriers' motion; inverse_mass unused
+  AlignedVector<SurfacePoint> gradient;     // of the volume; scratch
+  std::vector<glm::mat4> bones;             // rest space -> simulation's frame, by bone, at the last step
+  std::vector<glm::mat4> carriers;          // likewise by carrier
+  std::vector<glm::mat4> moved;             // scratch: how carriers move in a substep
+  glm::mat4 frame{1.0f};                    // simulation's frame -> world
+  double volume = 0.0;                      // m^3, after the last step
+  std::uint64_t fallbacks = 0;              // steps at which it went back to where its carriers bring its rest shape
+  bool enabled = true;                      // false: carried only, nothing is solved
+  bool started = false;
+};
+
+// What is drawn or read by a game: world space, unit normals packed, in the asset's order of vertices.
+struct DrawnSurface {
+  AlignedVector<SurfaceVertex> vertices;
+};
+
+// A bone that the muscle touches after a step.
+struct SurfaceContact {
+  std::int32_t bone = -1;
+  std::uint32_t vertices = 0;  // held at the bone's surface
+  float depth = 0.0f;          // m: the furthest that one had to be pushed in a substep
+  glm::vec3 place{0.0f};       // m, world: of that vertex
+};
+struct SurfaceContacts {
+  std::vector<SurfaceContact> now;
+};
+
+// 4.3, by systems/5_present/measure_surfaces where a muscle has this component.
+struct SurfaceQuality {
+  double volume_ratio = 1.0;
+  double edge_ratio_mean = 1.0, edge_ratio_abs_mean = 0.0, edge_ratio_max = 1.0, edge_ratio_min = 1.0;
+  double edge_ratio_p5 = 1.0, edge_ratio_p50 = 1.0, edge_ratio_p95 = 1.0;
+  double dihedral_change_mean = 0.0, dihedral_change_max = 0.0;  // rad
+  double angle_max = 0.0;                    // rad: of two triangles that meet; pi is one turned inside out
+  double rest_distance_max = 0.0;            // m, from the places at rest in the simulation's frame
+  double attachment_error_max = 0.0;         // m, from where their bones have the attached vertices
+  std::vector<float> ratios;                 // scratch: by edge
+};
+
+// Fibres bound to the surface (4.4), on a surface muscle's entity.
+struct FibreBundleAsset;  // asset/fibres/
+struct FibreBundle {
+  std::shared_ptr<const FibreBundleAsset> asset;
+  AlignedVector<SurfacePoint> points;        // m, simulation's frame, fibre after fibre
+  std::vector<float> length;                 // m, by fibre
+  float length_ratio_mean = 1.0f;            // to rest
+};
+
+}  // namespace fascicle::muscle

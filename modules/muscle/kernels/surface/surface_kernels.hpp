@@ -1,0 +1,58 @@
+// The constraints of surface muscles (4.1), solved over packs of hinges, one instruction set a file. All instruction
+// sets give the same bits; `surface_reference.hpp` holds the same equations in plain scalar code.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/math/simd_level.hpp"
+#include "modules/muscle/asset/surface/surface_asset.hpp"
+
+namespace fascicle::muscle {
+
+// One pass over all hinges in the packs' order: each hinge's edge, then its angle.
+//   edge   C = |p_2 - p_1| - d,      d lambda = -C / (w_1 + w_2 + alpha / (k h^2))
+//   angle  C = wrap(theta - theta_0), d lambda = -C / (sum w_i |grad_i C|^2 + alpha_b / h^2)
+// Points gain w_i grad_i C d lambda. A hinge without an area on one side, or an edge without a length, is left alone.
+struct HingeJob {
+  std::span<const HingePack> packs;
+  std::span<SurfacePoint> points;     // with padding
+  float inverse_h2 = 0.0f;            // 1/s^2
+};
+
+// The volume (4.1): C = V - V_0 with V = sum p_a . (p_b x p_c) over the triangles, about the mesh's first point; one
+// Newton step on the whole constraint. Sums run over fixed chunks, so they do not depend on lanes.
+struct VolumeJob {
+  std::span<const std::uint32_t> triangles;
+  std::uint32_t vertex_count = 0;
+  std::span<SurfacePoint> points;
+  std::span<SurfacePoint> gradient;   // scratch, vertex_count
+  double rest = 0.0;                  // V_0: six times the volume, as the same kernel measures it at rest
+  float compliance = 0.0f;            // alpha_v / h^2, in the constraint's own units (six volumes)
+};
+
+// Starts a substep: carried points go with their carriers, `before` keeps where they are, velocities fade and act.
+struct PredictJob {
+  std::span<const CarryWeights> carry;    // empty: nothing carries
+  std::span<const float> moved;           // 12 a carrier: rows of how it moves in this substep, less the identity
+  std::uint32_t vertex_count = 0;
+  std::span<SurfacePoint> points, before, velocity;
+  float h = 0.0f;                         // s
+  float keep = 1.0f;                      // exp(-damping h)
+};
+
+struct SurfaceKernels {
+  void (*project_hinges)(const HingeJob& job);
+  // Returns six times the volume before the step.
+  double (*project_volume)(const VolumeJob& job);
+  // Six times the volume, nothing moved.
+  double (*measure_volume)(const VolumeJob& job);
+  void (*predict)(const PredictJob& job);
+  // velocity = (points - before) / h.
+  void (*take_velocities)(const PredictJob& job);
+};
+
+// Of the level or the best below it that the processor has.
+const SurfaceKernels& surface_kernels(SimdLevel level);
+
+}  // namespace fascicle::muscle
