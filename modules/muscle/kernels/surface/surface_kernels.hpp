@@ -10,6 +10,10 @@
 
 namespace fascicle::muscle {
 
+// Hinges below these are left alone: they have no direction to act in.
+inline constexpr float kShortestEdge = 1.0e-7f;     // m
+inline constexpr float kSmallestArea2 = 1.0e-20f;   // m^4, of |N|^2
+
 // One pass over all hinges in the packs' order: each hinge's edge, then its angle.
 //   edge   C = |p_2 - p_1| - d,      d lambda = -C / (w_1 + w_2 + alpha / (k h^2))
 //   angle  C = wrap(theta - theta_0), d lambda = -C / (sum w_i |grad_i C|^2 + alpha_b / h^2)
@@ -50,6 +54,9 @@ struct SurfaceKernels {
   void (*predict)(const PredictJob& job);
   // velocity = (points - before) / h.
   void (*take_velocities)(const PredictJob& job);
+  // Lengths (m) and angles (rad) of all lanes, by the code of project_hinges, so that a mesh at rest is exactly so.
+  void (*measure_hinges)(std::span<const HingePack> packs, std::span<const SurfacePoint> points,
+                         std::span<float> lengths, std::span<float> angles);
 };
 
 // Of the level or the best below it that the processor has.
