@@ -1,0 +1,23 @@
+// Hinges in colours and packs: no two hinges of a colour share a vertex, so that 16 of them can be solved side by side
+// and what comes out does not depend on how many are.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "modules/muscle/asset/surface/surface_asset.hpp"
+
+namespace fascicle::muscle {
+
+struct PackedHinges {
+  std::vector<std::uint32_t> order;       // of the hinges in the packs, spare lanes left out
+  AlignedVector<HingePack> packs;         // vertices only; what is at rest is filled in later
+  std::vector<std::uint32_t> first_pack;  // by colour, and one more
+};
+
+// Greedy, in the given order: each hinge gets the lowest colour that none of its vertices has. Spare lanes have the
+// padding points from `vertex_count` on, four a lane.
+PackedHinges pack_hinges(std::span<const Hinge> hinges, std::uint32_t vertex_count);
+
+}  // namespace fascicle::muscle
