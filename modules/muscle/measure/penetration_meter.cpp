@@ -90,13 +90,13 @@ struct PenetrationMeter::Task {
 
   std::vector<Bone> bones;
   std::vector<Other> others;
-  std::vector<SurfacePoint> points;
+  std::vector<SampledPoint> points;
   std::uint32_t count = 0;
 
   void measure_bones(const Box& box) {
     for (Bone& bone : bones) {
       if (!moved(box, bone.to_bone).meets(bone.solid->box())) continue;
-      for (const SurfacePoint& point : points) {
+      for (const SampledPoint& point : points) {
         const glm::vec3 local(bone.to_bone * glm::dvec4(point.position, 1.0));
         const double deepest = static_cast<double>(bone.deepest.depth);
         note(bone.deepest, bone.solid->depth_beyond(local, deepest), point);
@@ -111,7 +111,7 @@ struct PenetrationMeter::Task {
                        [&](const Box& band) { return band.meets(box); })) {
         continue;
       }
-      for (const SurfacePoint& point : points) {
+      for (const SampledPoint& point : points) {
         if (!other.solid->box.contains(point.position) || other.solid->tree.windings(point.position) < 1) continue;
         const double deepest = static_cast<double>(other.deepest.depth);
         note(other.deepest, other.solid->tree.distance_beyond(point.position, deepest), point);
@@ -119,7 +119,7 @@ struct PenetrationMeter::Task {
     }
   }
 
-  static void note(PairDepth& deepest, double depth, const SurfacePoint& point) {
+  static void note(PairDepth& deepest, double depth, const SampledPoint& point) {
     if (!(static_cast<float>(depth) > deepest.depth)) return;
     deepest.depth = static_cast<float>(depth);
     deepest.position = point.position;

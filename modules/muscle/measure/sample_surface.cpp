@@ -44,7 +44,7 @@ SurfacePatch patch_of(const MuscleSurfaceView& surface, std::span<const float> r
 }
 
 void sample_patch(const SurfacePatch& patch, float spacing, float first, float last,
-                  std::vector<SurfacePoint>& points) {
+                  std::vector<SampledPoint>& points) {
   points.clear();
   if (patch.to < first || patch.from > last) return;
   const auto& [a, b, c, d] = patch.corners;

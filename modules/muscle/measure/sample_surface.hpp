@@ -23,7 +23,7 @@ namespace fascicle::muscle {
 void find_row_places(const MuscleAsset& asset, const Tendons& tendons, std::uint32_t muscle,
                      std::vector<float>& places);
 
-struct SurfacePoint {
+struct SampledPoint {
   glm::vec3 position{0.0f};  // m, world
   float place = 0.0f;        // along the line, in sections
 };
@@ -38,7 +38,7 @@ SurfacePatch patch_of(const MuscleSurfaceView& surface, std::span<const float> r
 
 // Replaces `points` by the patch's, no more than `spacing` m apart along its sides, its corners among them; points on
 // its second side and on the row after are left to the neighbours. Only those with first <= place <= last.
-void sample_patch(const SurfacePatch& patch, float spacing, float first, float last, std::vector<SurfacePoint>& points);
+void sample_patch(const SurfacePatch& patch, float spacing, float first, float last, std::vector<SampledPoint>& points);
 
 // The muscle's closed surface, caps included: triangles of indices that count from its own vertex 0.
 std::vector<std::uint32_t> surface_triangles(const MuscleAsset& asset, std::uint32_t muscle);
