@@ -65,9 +65,12 @@ struct SurfaceQuality {
   double edge_ratio_p5 = 1.0, edge_ratio_p50 = 1.0, edge_ratio_p95 = 1.0;
   double dihedral_change_mean = 0.0, dihedral_change_max = 0.0;  // rad
   double angle_max = 0.0;                    // rad: of two triangles that meet; pi is one turned inside out
+  std::uint32_t folded = 0;                  // edges bent to 170 degrees or more that were not at rest
+  std::uint32_t turned = 0;                  // edges whose triangles have swung through each other since rest
   double rest_distance_max = 0.0;            // m, from the places at rest in the simulation's frame
   double attachment_error_max = 0.0;         // m, from where their bones have the attached vertices
-  std::vector<float> ratios;                 // scratch: by edge
+  std::vector<float> ratios;                 // scratch: by edge, in no order
+  std::vector<float> angles;                 // rad, by edge: the dihedral angle, followed from rest beyond pi
 };
 
 // Fibres bound to the surface (4.4), on a surface muscle's entity.
