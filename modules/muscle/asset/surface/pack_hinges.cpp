@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "modules/muscle/kernels/surface/surface_kernels.hpp"
+
 namespace fascicle::muscle {
 namespace {
 
@@ -28,9 +30,26 @@ class VertexColours {
   std::vector<std::vector<std::uint64_t>> used_;
 };
 
+// k = 0 drops an edge (4.1): so soft that nothing comes of it.
+constexpr float kDropped = 1.0e30f;
+
+void set_lane(HingePack& pack, std::size_t lane, const Hinge& hinge, const SurfaceSettings& settings) {
+  for (std::size_t i = 0; i < 4; ++i) pack.vertex[i][lane] = static_cast<std::int32_t>(hinge.vertex[i]);
+  pack.length[lane] = hinge.length;
+  pack.angle[lane] = hinge.angle;
+  pack.stretch_compliance[lane] = hinge.anisotropy > 0.0f ? settings.stretch_compliance / hinge.anisotropy : kDropped;
+  pack.bend_compliance[lane] = settings.bend_compliance;
+}
+
+// The padding of a lane, as a hinge.
+Hinge spare_hinge(std::uint32_t vertex_count, std::size_t lane) {
+  const auto first = vertex_count + static_cast<std::uint32_t>(4 * lane);
+  return {.vertex = {first, first + 1, first + 2, first + 3}, .length = 1.0f};
+}
+
 }  // namespace
 
-PackedHinges pack_hinges(std::span<const Hinge> hinges, std::uint32_t vertex_count) {
+PackedHinges pack_hinges(std::span<const Hinge> hinges, std::uint32_t vertex_count, const SurfaceSettings& settings) {
   VertexColours colours(vertex_count);
   std::vector<std::vector<std::uint32_t>> members;
   for (std::uint32_t i = 0; i < hinges.size(); ++i) {
@@ -44,21 +63,42 @@ PackedHinges pack_hinges(std::span<const Hinge> hinges, std::uint32_t vertex_cou
   packed.first_pack.push_back(0);
   for (const std::vector<std::uint32_t>& colour : members) {
     for (std::size_t begin = 0; begin < colour.size(); begin += kHingeLanes) {
-      HingePack pack{};
+      HingePack& pack = packed.packs.emplace_back();
       for (std::size_t lane = 0; lane < kHingeLanes; ++lane) {
         const bool spare = begin + lane >= colour.size();
-        for (std::size_t i = 0; i < 4; ++i) {
-          const std::uint32_t vertex = spare ? vertex_count + static_cast<std::uint32_t>(4 * lane + i)
-                                             : hinges[colour[begin + lane]].vertex[i];
-          pack.vertex[i][lane] = static_cast<std::int32_t>(vertex);
-        }
-        if (!spare) packed.order.push_back(colour[begin + lane]);
+        set_lane(pack, lane, spare ? spare_hinge(vertex_count, lane) : hinges[colour[begin + lane]], settings);
       }
-      packed.packs.push_back(pack);
     }
+    packed.order.insert(packed.order.end(), colour.begin(), colour.end());
     packed.first_pack.push_back(static_cast<std::uint32_t>(packed.packs.size()));
   }
   return packed;
+}
+
+void measure_hinges(std::span<const SurfacePoint> points, std::span<Hinge> hinges) {
+  const auto vertex_count = static_cast<std::uint32_t>(points.size() - kPaddingPoints);
+  std::array<float, kHingeLanes> lengths, angles;
+  for (std::size_t begin = 0; begin < hinges.size(); begin += kHingeLanes) {
+    HingePack pack{};
+    for (std::size_t lane = 0; lane < kHingeLanes; ++lane) {
+      const bool spare = begin + lane >= hinges.size();
+      set_lane(pack, lane, spare ? spare_hinge(vertex_count, lane) : hinges[begin + lane], {});
+    }
+    surface_kernels(SimdLevel::kPortable).measure_hinges(std::span(&pack, 1), points, lengths, angles);
+    for (std::size_t lane = 0; lane < kHingeLanes && begin + lane < hinges.size(); ++lane) {
+      hinges[begin + lane].length = lengths[lane];
+      hinges[begin + lane].angle = angles[lane];
+    }
+  }
+}
+
+void add_padding(AlignedVector<SurfacePoint>& points) {
+  for (std::size_t lane = 0; lane < kHingeLanes; ++lane) {
+    points.push_back({0.0f, 0.0f, 0.0f, 0.0f});
+    points.push_back({1.0f, 0.0f, 0.0f, 0.0f});
+    points.push_back({0.0f, 1.0f, 0.0f, 0.0f});
+    points.push_back({0.0f, -1.0f, 0.0f, 0.0f});
+  }
 }
 
 }  // namespace fascicle::muscle

@@ -59,8 +59,9 @@ struct CarryWeights {
 };
 
 struct SurfaceCarrier {
-  std::int32_t bone = -1;      // index into the skeleton; -1: `section`
-  std::uint32_t section = 0;   // of the driver, from its origin
+  std::int32_t bone = -1;  // index into the skeleton; -1: `section`
+  float section = 0.0f;    // of the driver's line, whatever its level of detail: attachment i is at i, the middle of
+                           // the sections between it and the next at i + 0.5
 };
 
 struct AttachedVertex {
@@ -81,10 +82,11 @@ struct SurfaceAsset {
   AlignedVector<SurfacePoint> rest;             // vertex_count and kPaddingPoints more
   std::vector<std::uint32_t> triangles;         // three a triangle, anticlockwise from outside
   std::vector<std::uint32_t> file_vertex;       // by vertex: its number in the description's mesh
-  std::vector<Hinge> hinges;                    // one an edge, in the packs' order without their spare lanes
+  std::vector<Hinge> hinges;                    // one an edge: those that can move first, in the packs' order
   AlignedVector<HingePack> packs;
   std::vector<std::uint32_t> first_pack;        // by colour, and one more: their number
   double volume = 0.0;                          // m^3
+  double kernel_volume = 0.0;                   // m^3, six volumes, as the kernels measure it at rest
   float mean_edge = 0.0f;                       // m
   float size = 0.0f;                            // m, the diagonal of its box
   std::vector<SurfaceAttachmentAsset> attachments;
@@ -102,8 +104,10 @@ struct SurfaceAsset {
 
 // Errors name the description's place: an empty or open mesh, an edge with more than two triangles or used twice in one
 // direction, more than one piece, a mesh that is inside out, triangles or numbers that are none, indices out of range,
-// a vertex attached twice, settings out of range. `bone_count`: matrices of the skeleton.
+// a vertex attached twice, settings out of range, a driver that `muscles` (null: none) has not. Sound triangles that the
+// constraints cannot be solved on (slivers) are no error. `bone_count`: matrices of the skeleton.
 Result<std::shared_ptr<const SurfaceAsset>> build_surface_asset(const SurfaceMuscleDescription& description,
-                                                                std::uint32_t bone_count);
+                                                                std::uint32_t bone_count,
+                                                                const MuscleAsset* muscles = nullptr);
 
 }  // namespace fascicle::muscle
