@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,20 @@ struct SurfaceAttachment {
 struct FibreLine {
   std::vector<glm::vec3> points;         // m, rest space; 2 or more, from the origin to the insertion where known
   std::uint32_t head = 0;
+};
+
+// The fibres inside a muscle (4.4), that asset/fibres/ makes when it is asked to.
+enum class FibreMethod {
+  kIsocontour,  // from origin and insertion alone, by a template carried along a harmonic field; one head
+  kSurface,     // from the fibres given on the surface (SurfaceMuscleDescription::fibres), any number of heads
+};
+enum class FibreArrangement { kParallel, kPennate, kFan };  // the isocontour method's templates
+struct FibreBundleSettings {
+  FibreMethod method = FibreMethod::kIsocontour;
+  FibreArrangement arrangement = FibreArrangement::kParallel;
+  std::uint32_t count = 1000;            // fibres, 1..100000
+  std::uint32_t points = 10;             // of each, 2..1000
+  float pennation = 0.35f;               // rad, between fibres and the muscle's line; kPennate alone asks
 };
 
 // Compliances are those of XPBD: what a constraint of the muscle's mass gives way, whatever the substeps. Zero is rigid.
@@ -52,6 +67,7 @@ struct SurfaceMuscleDescription {
   std::int32_t frame_bone = 0;           // the simulation's frame: the muscle moves with it at no cost
   std::vector<std::int32_t> bones;       // that it collides with; those without a field are passed over
   std::vector<FibreLine> fibres;
+  std::optional<FibreBundleSettings> fibre_bundle;  // inner fibres; none: the muscle has none
   std::string driver;                    // name of the musculotendon unit that carries it; empty: its bones do
   SurfaceSettings settings;
   Diagnostic where;                      // file, line, column and path to quote in errors; empty: made in code
