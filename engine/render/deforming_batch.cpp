@@ -40,6 +40,13 @@ std::span<std::byte> DeformingBatch<Handle>::write(Handle handle, const StepCloc
 }
 
 template <class Handle>
+void DeformingBatch<Handle>::set_highlighted(Handle handle, bool highlighted) {
+  Instance& instance = instances_.get(handle);
+  changed_ |= instance.highlighted != highlighted;
+  instance.highlighted = highlighted;
+}
+
+template <class Handle>
 bool DeformingBatch<Handle>::finish_step(const StepClock& clock) {
   bool copied = false;
   instances_.each([&](Instance& instance) {
@@ -59,12 +66,15 @@ void DeformingBatch<Handle>::prepare(const StepClock& clock) {
   changed_ = false;
   instance_scratch_.clear();
   command_scratch_.clear();
+  drawn_vertices_ = 0;
   instances_.each([&](Instance& instance) {
     if (!instance.state.drawn() || instance.index_count == 0) return;
     command_scratch_.push_back({instance.index_count, 1, instance.first_index,
                                 static_cast<GLint>(instance.first_vertex),
                                 static_cast<GLuint>(instance_scratch_.size())});
-    instance_scratch_.push_back(instance.state.interpolated(clock.step()) ? 1u : 0u);
+    instance_scratch_.push_back((instance.state.interpolated(clock.step()) ? kInstanceInterpolated : 0u) |
+                                (instance.highlighted ? kInstanceHighlighted : 0u));
+    drawn_vertices_ += instance.vertex_count;
   });
   instance_data_.upload(std::as_bytes(std::span(instance_scratch_)));
   commands_.upload(std::as_bytes(std::span(command_scratch_)));
@@ -84,7 +94,9 @@ std::uint32_t DeformingBatch<Handle>::draw(GLuint vertex_array, GLenum mode, con
 }
 
 template class DeformingBatch<SkinHandle>;
+template class DeformingBatch<SurfaceHandle>;
 template class DeformingBatch<LineHandle>;
+template class DeformingBatch<FibreHandle>;
 
 GlVertexArray make_skin_vertex_array() {
   GlVertexArray array = make_vertex_array();

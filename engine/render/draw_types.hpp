@@ -16,12 +16,14 @@ namespace fascicle {
 // Restarts a strip or fan inside an index buffer.
 inline constexpr std::uint32_t kPrimitiveRestart = 0xffffffffu;
 
-// 16 bytes: a position (m, world space) and a unit normal packed as GL_INT_2_10_10_10_REV.
+// 16 bytes: a position (m, world space) and a unit normal packed as GL_INT_2_10_10_10_REV. On a surface kTendonVertex
+// in the normal's spare bits gives the vertex the tendons' colour.
 struct DrawVertex {
   glm::vec3 position{0.0f};
   std::uint32_t normal = 0;
 };
 static_assert(sizeof(DrawVertex) == 16);
+inline constexpr std::uint32_t kTendonVertex = 1u << 30;
 
 // Unit vector to and from GL_INT_2_10_10_10_REV (signed normalised, 9 bits and sign each; w is 0). A zero or
 // non-finite vector packs to +y.
@@ -78,6 +80,8 @@ using StripHandle = DrawHandle<struct StripTag>;
 using MeshHandle = DrawHandle<struct MeshTag>;
 using RigidHandle = DrawHandle<struct RigidTag>;
 using SkinHandle = DrawHandle<struct SkinTag>;
+using SurfaceHandle = DrawHandle<struct SurfaceTag>;
+using FibreHandle = DrawHandle<struct FibreTag>;
 using LineHandle = DrawHandle<struct LineTag>;
 
 }  // namespace fascicle

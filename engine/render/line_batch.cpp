@@ -5,7 +5,7 @@
 namespace fascicle {
 namespace {
 
-// Locations: 0 previous position, 1 current position, 2 colour, 3 interpolated, 4 point size. What a vertex array
+// Locations: 0 previous position, 1 current position, 2 colour, 3 flags, 4 point size. What a vertex array
 // leaves out is read from the context's constant attributes, set before drawing.
 GlVertexArray make_line_vertex_array(GLuint previous_binding, GLuint current_binding, bool with_flags,
                                      bool with_size) {
@@ -42,6 +42,7 @@ void set_constant_attributes() {
 
 LineBatch::LineBatch(GpuMemory& memory)
     : sets_(memory),
+      fibres_(memory),
       line_buffer_(memory),
       point_buffer_(memory),
       set_array_(make_line_vertex_array(kPreviousStep, kCurrentStep, true, false)),
@@ -59,6 +60,7 @@ void LineBatch::add_point(const glm::vec3& at, std::uint32_t colour, float size)
 
 void LineBatch::prepare(const StepClock& clock) {
   sets_.prepare(clock);
+  fibres_.prepare(clock);
   if (!lines_.empty()) line_buffer_.upload(std::as_bytes(std::span(lines_)));
   if (!points_.empty()) point_buffer_.upload(std::as_bytes(std::span(points_)));
 }
@@ -66,6 +68,11 @@ void LineBatch::prepare(const StepClock& clock) {
 std::uint32_t LineBatch::draw_sets(const StepClock& clock) {
   set_constant_attributes();
   return sets_.draw(set_array_.name(), GL_LINE_STRIP, clock);
+}
+
+std::uint32_t LineBatch::draw_fibres(const StepClock& clock) {
+  set_constant_attributes();
+  return fibres_.draw(set_array_.name(), GL_LINE_STRIP, clock);
 }
 
 std::uint32_t LineBatch::draw_lines() {

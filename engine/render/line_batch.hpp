@@ -1,4 +1,5 @@
-// Lines and points: line sets that follow the simulation's steps (action lines), and immediate ones for one frame.
+// Lines and points: line sets that follow the simulation's steps (action lines; fibres, which are switched apart), and
+// immediate ones for one frame.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +14,18 @@ class LineBatch {
   explicit LineBatch(GpuMemory& memory);
 
   DeformingBatch<LineHandle>& sets() { return sets_; }
+  DeformingBatch<FibreHandle>& fibres() { return fibres_; }
   void add_line(const glm::vec3& from, const glm::vec3& to, std::uint32_t colour);
   void add_point(const glm::vec3& at, std::uint32_t colour, float size);
 
   void prepare(const StepClock& clock);
   bool has_sets() const { return !sets_.empty(); }
+  bool has_fibres() const { return !fibres_.empty(); }
   bool has_lines() const { return !lines_.empty(); }    // immediate ones
   bool has_points() const { return !points_.empty(); }
   // The program is bound by the caller. Return the draw calls issued.
   std::uint32_t draw_sets(const StepClock& clock);
+  std::uint32_t draw_fibres(const StepClock& clock);
   std::uint32_t draw_lines();
   std::uint32_t draw_points();
   // Forgets the immediate lines and points.
@@ -33,6 +37,7 @@ class LineBatch {
     float size = 0.0f;  // pixels
   };
   DeformingBatch<LineHandle> sets_;
+  DeformingBatch<FibreHandle> fibres_;
   std::vector<LineVertex> lines_;
   std::vector<Point> points_;
   StreamBuffer line_buffer_, point_buffer_;

@@ -22,6 +22,7 @@ Result<RenderPrograms> RenderPrograms::create() {
   build(programs.skin, "skin.vert", "skin.frag", {});
   build(programs.skin_depth, "skin.vert", "depth.frag", {});
   build(programs.skin_shadow, "skin.vert", "depth.frag", {"DEPTH_ONLY"});
+  build(programs.surface, "skin.vert", "surface.frag", {});
   build(programs.line, "line.vert", "line.frag", {});
   build(programs.line_through, "line.vert", "line.frag", {"THROUGH"});
   build(programs.point, "line.vert", "line.frag", {"POINT"});

@@ -26,7 +26,10 @@ struct Renderer::State {
   void draw_opaque(const DrawView& view);
   void draw_ground(const DrawView& view);
   void draw_lines(const DrawView& view);
-  void draw_skins(const DrawView& view);
+  template <class Handle>
+  void draw_translucent(DeformingBatch<Handle>& batch, const GlProgram& program);
+  void draw_translucent(const DrawView& view);
+  bool shows_fibres(const DrawView& view) const { return view.fibres && lines.has_fibres(); }
 
   RendererOptions options;
   GpuMemory memory;
@@ -37,6 +40,7 @@ struct Renderer::State {
   StripBatch strips{memory};
   RigidBatch rigids{memory};
   DeformingBatch<SkinHandle> skins{memory};
+  DeformingBatch<SurfaceHandle> surfaces{memory};
   LineBatch lines{memory};
   GlVertexArray skin_array = make_skin_vertex_array();
   GlVertexArray empty_array = make_vertex_array();
@@ -72,8 +76,14 @@ RigidHandle Renderer::add_rigid(std::span<const MeshHandle> meshes) { return sta
 SkinHandle Renderer::add_skin(std::uint32_t vertex_count, std::span<const std::uint32_t> triangle_indices) {
   return state_->skins.add(vertex_count, triangle_indices);
 }
+SurfaceHandle Renderer::add_surface(std::uint32_t vertex_count, std::span<const std::uint32_t> triangle_indices) {
+  return state_->surfaces.add(vertex_count, triangle_indices);
+}
 LineHandle Renderer::add_lines(std::uint32_t vertex_count, std::span<const std::uint32_t> line_strip_indices) {
   return state_->lines.sets().add(vertex_count, line_strip_indices);
+}
+FibreHandle Renderer::add_fibres(std::uint32_t vertex_count, std::span<const std::uint32_t> line_strip_indices) {
+  return state_->lines.fibres().add(vertex_count, line_strip_indices);
 }
 // A removed thing's memory may be handed out again at once, so the GPU must be done with it.
 void Renderer::remove(StripTopologyHandle topology) {
@@ -96,9 +106,17 @@ void Renderer::remove(SkinHandle skin) {
   glFinish();
   state_->skins.remove(skin);
 }
+void Renderer::remove(SurfaceHandle surface) {
+  glFinish();
+  state_->surfaces.remove(surface);
+}
 void Renderer::remove(LineHandle lines) {
   glFinish();
   state_->lines.sets().remove(lines);
+}
+void Renderer::remove(FibreHandle fibres) {
+  glFinish();
+  state_->lines.fibres().remove(fibres);
 }
 
 // --- Contents
@@ -113,7 +131,9 @@ void Renderer::State::finish_step() {
   bool copied = strips.finish_step(clock);
   copied |= rigids.finish_step(clock);
   copied |= skins.finish_step(clock);
+  copied |= surfaces.finish_step(clock);
   copied |= lines.sets().finish_step(clock);
+  copied |= lines.fibres().finish_step(clock);
   if (copied) clock.guard();
 }
 
@@ -134,9 +154,19 @@ std::span<DrawVertex> Renderer::skin_vertices(SkinHandle skin) {
   const std::span<std::byte> bytes = state_->skins.write(skin, state_->clock);
   return {reinterpret_cast<DrawVertex*>(bytes.data()), bytes.size() / sizeof(DrawVertex)};
 }
+std::span<DrawVertex> Renderer::surface_vertices(SurfaceHandle surface) {
+  assert(state_->clock.step() > 0 && "call begin_step first");
+  const std::span<std::byte> bytes = state_->surfaces.write(surface, state_->clock);
+  return {reinterpret_cast<DrawVertex*>(bytes.data()), bytes.size() / sizeof(DrawVertex)};
+}
 std::span<LineVertex> Renderer::line_vertices(LineHandle lines) {
   assert(state_->clock.step() > 0 && "call begin_step first");
   const std::span<std::byte> bytes = state_->lines.sets().write(lines, state_->clock);
+  return {reinterpret_cast<LineVertex*>(bytes.data()), bytes.size() / sizeof(LineVertex)};
+}
+std::span<LineVertex> Renderer::fibre_vertices(FibreHandle fibres) {
+  assert(state_->clock.step() > 0 && "call begin_step first");
+  const std::span<std::byte> bytes = state_->lines.fibres().write(fibres, state_->clock);
   return {reinterpret_cast<LineVertex*>(bytes.data()), bytes.size() / sizeof(LineVertex)};
 }
 
@@ -145,8 +175,14 @@ void Renderer::mark_teleported(StripHandle strips) {
 }
 void Renderer::mark_teleported(RigidHandle group) { state_->rigids.state(group).teleported = state_->clock.step(); }
 void Renderer::mark_teleported(SkinHandle skin) { state_->skins.state(skin).teleported = state_->clock.step(); }
+void Renderer::mark_teleported(SurfaceHandle surface) {
+  state_->surfaces.state(surface).teleported = state_->clock.step();
+}
 void Renderer::mark_teleported(LineHandle lines) {
   state_->lines.sets().state(lines).teleported = state_->clock.step();
+}
+void Renderer::mark_teleported(FibreHandle fibres) {
+  state_->lines.fibres().state(fibres).teleported = state_->clock.step();
 }
 
 void Renderer::forget(StripHandle strips) { state_->strips.state(strips).first_written = 0; }
@@ -156,7 +192,14 @@ std::span<StripItem> Renderer::strip_items(StripHandle strips) { return state_->
 void Renderer::set_visible(StripHandle strips, bool visible) { state_->strips.state(strips).visible = visible; }
 void Renderer::set_visible(RigidHandle group, bool visible) { state_->rigids.state(group).visible = visible; }
 void Renderer::set_visible(SkinHandle skin, bool visible) { state_->skins.state(skin).visible = visible; }
+void Renderer::set_visible(SurfaceHandle surface, bool visible) { state_->surfaces.state(surface).visible = visible; }
 void Renderer::set_visible(LineHandle lines, bool visible) { state_->lines.sets().state(lines).visible = visible; }
+void Renderer::set_visible(FibreHandle fibres, bool visible) {
+  state_->lines.fibres().state(fibres).visible = visible;
+}
+void Renderer::set_highlighted(SurfaceHandle surface, bool highlighted) {
+  state_->surfaces.set_highlighted(surface, highlighted);
+}
 void Renderer::add_line(const glm::vec3& from, const glm::vec3& to, std::uint32_t colour) {
   state_->lines.add_line(from, to, colour);
 }
@@ -185,9 +228,11 @@ void Renderer::State::draw_shadow(const DrawView& view) {
     glUseProgram(programs.rigid_shadow.name());
     stats.draw_calls += rigids.draw(clock);
   }
-  if (view.skins && view.skin_opacity > 0.0f) {
+  const bool with_skins = view.skins && view.skin_opacity > 0.0f;
+  if (with_skins || view.strips) {
     glUseProgram(programs.skin_shadow.name());
-    stats.draw_calls += skins.draw(skin_array.name(), GL_TRIANGLES, clock);
+    if (view.strips) stats.draw_calls += surfaces.draw(skin_array.name(), GL_TRIANGLES, clock);
+    if (with_skins) stats.draw_calls += skins.draw(skin_array.name(), GL_TRIANGLES, clock);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -199,6 +244,13 @@ void Renderer::State::draw_opaque(const DrawView& view) {
     stats.strip_draw_calls = strips.draw_surfaces(clock);
     stats.draw_calls += stats.strip_draw_calls;
     stats.strip_vertices = strips.drawn_vertices();
+    timer.end_pass();
+  }
+  if (view.strips) stats.surface_vertices = surfaces.drawn_vertices();
+  if (view.strips && !surfaces.empty() && !shows_fibres(view)) {
+    timer.begin_pass("surfaces");
+    glUseProgram(programs.surface.name());
+    stats.draw_calls += surfaces.draw(skin_array.name(), GL_TRIANGLES, clock);
     timer.end_pass();
   }
   if (view.meshes) {
@@ -223,8 +275,9 @@ void Renderer::State::draw_ground(const DrawView& view) {
 void Renderer::State::draw_lines(const DrawView& view) {
   const bool rings = view.rings && view.strips;
   const bool sets = view.lines && lines.has_sets();
+  const bool fibres = shows_fibres(view);
   const bool marks = view.marks && (lines.has_lines() || lines.has_points());
-  if (!rings && !sets && !marks) return;
+  if (!rings && !sets && !fibres && !marks) return;
   timer.begin_pass("lines");
   const auto set_width = [this](float pixels) {
     glLineWidth(std::clamp(pixels, line_widths[0], std::max(line_widths[0], line_widths[1])));
@@ -233,6 +286,11 @@ void Renderer::State::draw_lines(const DrawView& view) {
     set_width(1.0f);
     glUseProgram(programs.strip_ring.name());
     stats.draw_calls += strips.draw_rings(clock);
+  }
+  if (fibres) {
+    set_width(view.line_width);
+    glUseProgram(programs.line.name());
+    stats.draw_calls += lines.draw_fibres(clock);
   }
   if (sets || marks) {
     set_width(view.line_width);
@@ -260,21 +318,33 @@ void Renderer::State::draw_lines(const DrawView& view) {
   timer.end_pass();
 }
 
-void Renderer::State::draw_skins(const DrawView& view) {
-  if (!view.skins || view.skin_opacity <= 0.0f || skins.empty()) return;
-  timer.begin_pass("skins");
-  // First the depth of the outermost layer, then the colour of just that layer: a skin never shows through itself.
+template <class Handle>
+void Renderer::State::draw_translucent(DeformingBatch<Handle>& batch, const GlProgram& program) {
+  // First the depth of the outermost layer, then the colour of just that layer: a thing never shows through itself.
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glUseProgram(programs.skin_depth.name());
-  stats.draw_calls += skins.draw(skin_array.name(), GL_TRIANGLES, clock);
+  stats.draw_calls += batch.draw(skin_array.name(), GL_TRIANGLES, clock);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
-  glUseProgram(programs.skin.name());
-  stats.draw_calls += skins.draw(skin_array.name(), GL_TRIANGLES, clock);
+  glUseProgram(program.name());
+  stats.draw_calls += batch.draw(skin_array.name(), GL_TRIANGLES, clock);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  timer.end_pass();
+}
+
+// After the lines, which they let through.
+void Renderer::State::draw_translucent(const DrawView& view) {
+  if (view.strips && !surfaces.empty() && shows_fibres(view)) {
+    timer.begin_pass("surfaces");
+    draw_translucent(surfaces, programs.surface);
+    timer.end_pass();
+  }
+  if (view.skins && view.skin_opacity > 0.0f && !skins.empty()) {
+    timer.begin_pass("skins");
+    draw_translucent(skins, programs.skin);
+    timer.end_pass();
+  }
 }
 
 void Renderer::draw(const DrawView& view) {
@@ -283,14 +353,17 @@ void Renderer::draw(const DrawView& view) {
   state.stats.draw_calls = 0;
   state.stats.strip_draw_calls = 0;
   state.stats.strip_vertices = 0;
+  state.stats.surface_vertices = 0;
   state.strips.prepare(state.clock);
   state.rigids.prepare(state.clock);
   state.skins.prepare(state.clock);
+  state.surfaces.prepare(state.clock);
   state.lines.prepare(state.clock);
 
   const bool shadow = view.shadow && view.ground && state.options.shadow_size > 0;
   const float aspect = static_cast<float>(state.target.width()) / static_cast<float>(state.target.height());
-  const FrameUniforms frame = make_frame_uniforms(view, aspect, shadow ? state.options.shadow_size : 0);
+  FrameUniforms frame = make_frame_uniforms(view, aspect, shadow ? state.options.shadow_size : 0);
+  if (state.shows_fibres(view)) frame.mesh_colour.w = std::clamp(view.opacity_over_fibres, 0.0f, 1.0f);
   state.uniforms.upload(std::as_bytes(std::span(&frame, 1)));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, state.uniforms.name());
 
@@ -314,7 +387,7 @@ void Renderer::draw(const DrawView& view) {
   state.draw_opaque(view);
   state.draw_ground(view);
   state.draw_lines(view);
-  state.draw_skins(view);
+  state.draw_translucent(view);
   state.timer.begin_pass("resolve");
   state.target.resolve();
   state.timer.end_pass();

@@ -6,7 +6,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 key_direction;     // unit, towards the light; w: 1 where there is a shadow map
   vec4 fill_direction;    // unit, towards the light that goes with the camera
   vec4 background;        // linear colour; w: radius (m) at which the ground has faded out
-  vec4 mesh_colour;       // linear
+  vec4 mesh_colour;       // linear; w: opacity of surfaces
   vec4 skin_colour;       // linear; w: opacity
   vec4 target;            // what the camera looks at (m); w: 1 when back faces are painted
   vec4 options;           // x: tendons told apart; y: opacity of hidden lines; z: shadow map texel; w: scale of points

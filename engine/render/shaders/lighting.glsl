@@ -23,6 +23,14 @@ vec3 shade(vec3 albedo, vec3 normal, vec3 position, float gloss, float shine) {
   return min(colour, 0.7) + 0.3 * (1.0 - exp(-over / 0.3));
 }
 
+// The share of light stopped by a shell of that opacity seen at this angle (cosine); more where it is seen grazing, so
+// that its outline reads at any opacity.
+float shell_opacity(float opacity, float facing) {
+  float grazing = 1.0 - facing;
+  float alpha = 1.0 - pow(1.0 - min(opacity, 0.999), 1.0 / max(facing, 0.14));
+  return opacity >= 0.999 ? 1.0 : min(alpha + 0.25 * opacity * grazing * grazing, 1.0);
+}
+
 vec3 paint_back_face(vec3 colour) {
   return frame.target.w > 0.5 && !gl_FrontFacing ? vec3(1.0, 0.0, 1.0) : colour;
 }

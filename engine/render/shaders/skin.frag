@@ -13,10 +13,7 @@ void main() {
   float facing = clamp(abs(dot(unit, to_eye)), 0.0, 1.0);
   float grazing = 1.0 - facing;
   float opacity = frame.skin_colour.w;
-  // The share of light stopped by a shell of that opacity, crossed at this angle.
-  float alpha = 1.0 - pow(1.0 - min(opacity, 0.999), 1.0 / max(facing, 0.14));
-  alpha = opacity >= 0.999 ? 1.0 : min(alpha + 0.25 * opacity * grazing * grazing, 1.0);
   vec3 shaded = shade(frame.skin_colour.rgb, unit, position, 20.0, 0.06);
   shaded += (1.0 - opacity) * 0.18 * grazing * grazing * vec3(0.9, 0.95, 1.0);
-  colour = vec4(paint_back_face(shaded), alpha);
+  colour = vec4(paint_back_face(shaded), shell_opacity(opacity, facing));
 }

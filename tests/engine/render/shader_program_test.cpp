@@ -49,7 +49,7 @@ TEST_F(ShaderProgram, LinkErrorsAreReported) {
 }
 
 TEST_F(ShaderProgram, AllEmbeddedFilesAreThere) {
-  EXPECT_EQ(shader_files().size(), 13u);
+  EXPECT_EQ(shader_files().size(), 14u);
   for (const ShaderFile& file : shader_files()) EXPECT_GT(std::string_view(file.text).size(), 20u) << file.name;
 }
 
