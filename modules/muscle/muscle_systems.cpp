@@ -7,7 +7,11 @@
 #include "modules/muscle/systems/2_shape/find_tendons.hpp"
 #include "modules/muscle/systems/4_solve/solve_as_legacy.hpp"
 #include "modules/muscle/systems/4_solve/solve_muscles.hpp"
+#include "modules/muscle/systems/4_solve/solve_surface_muscles.hpp"
+#include "modules/muscle/systems/5_present/measure_fibres.hpp"
 #include "modules/muscle/systems/5_present/measure_muscles.hpp"
+#include "modules/muscle/systems/5_present/measure_surfaces.hpp"
+#include "modules/muscle/systems/5_present/write_surface_muscles.hpp"
 #include "modules/muscle/systems/5_present/write_surfaces.hpp"
 
 namespace fascicle::muscle {
@@ -22,9 +26,13 @@ void add_muscle_systems(ecs::Schedule& schedule) {
   // 4 solve: what collides is found and moved apart.
   schedule.add("solve_muscles", solve_muscles);
   schedule.add("solve_as_legacy", solve_as_legacy);
+  schedule.add("solve_surface_muscles", solve_surface_muscles);
   // 5 present: what others read.
   schedule.add("measure_muscles", measure_muscles);
   schedule.add("write_surfaces", write_surfaces);
+  schedule.add("measure_fibres", measure_fibres);
+  schedule.add("measure_surfaces", measure_surfaces);
+  schedule.add("write_surface_muscles", write_surface_muscles);
 }
 
 }  // namespace fascicle::muscle

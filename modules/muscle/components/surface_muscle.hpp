@@ -15,31 +15,34 @@
 #include "modules/muscle/asset/collision/bone_field.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
+#include "modules/muscle/kernels/surface/step_surface.hpp"
 
 namespace fascicle::muscle {
 
 struct SurfaceMuscle {
   std::shared_ptr<const SurfaceAsset> asset;
   ecs::Entity character;     // has BoneMatrices
-  ecs::Entity musculature;   // of the driver; kNoEntity: its bones carry it
+  ecs::Entity musculature = ecs::kNoEntity;  // of the driver; kNoEntity: its bones carry it
   std::uint32_t driver = 0;  // index of the driving muscle in it
-  std::vector<glm::mat4> rest_to_bone;                     // by bone: inverse of its rest matrix
+  std::vector<glm::mat4> rest_bones;                       // by bone: their frames -> rest space, at rest
   std::vector<std::shared_ptr<const BoneField>> fields;    // by bone; null where it has none
+  SurfaceSettings settings;  // the asset's, until a game changes them
 };
 
 struct SurfaceState {
   AlignedVector<SurfacePoint> points;       // m, simulation's frame; vertices and padding
-  AlignedVector<SurfacePoint> before;       // at the substep's start, the carriers' motion included
   AlignedVector<SurfacePoint> velocity;     // m/s beside the carriers' motion; inverse_mass unused
-  AlignedVector<SurfacePoint> gradient;     // of the volume; scratch
   std::vector<glm::mat4> bones;             // rest space -> simulation's frame, by bone, at the last step
-  std::vector<glm::mat4> carriers;          // likewise by carrier
-  std::vector<glm::mat4> moved;             // scratch: how carriers move in a substep
+  std::vector<RigidMotion> attachment_motion, carrier_motion, bone_motion;  // in the last step; as in SurfaceStep
+  std::vector<const BoneField*> fields;     // likewise: of SurfaceMuscle::fields
+  std::vector<glm::mat4> rest_to_bone;      // likewise
   glm::mat4 frame{1.0f};                    // simulation's frame -> world
-  double volume = 0.0;                      // m^3, after the last step
+  double volume = 0.0;                      // m^3, at the last pass
   std::uint64_t fallbacks = 0;              // steps at which it went back to where its carriers bring its rest shape
+  std::uint32_t teleport_count = 0;         // of the bones at the last step
   bool enabled = true;                      // false: carried only, nothing is solved
   bool started = false;
+  SurfaceScratch scratch;
 };
 
 // What is drawn or read by a game: world space, unit normals packed, in the asset's order of vertices.

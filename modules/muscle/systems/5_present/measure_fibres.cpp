@@ -8,7 +8,7 @@
 
 namespace fascicle::muscle {
 
-void measure_fibres(const SurfaceState& state, FibreBundle& bundle) {
+void measure_fibre_bundle(const SurfaceState& state, FibreBundle& bundle) {
   const FibreBundleAsset& asset = *bundle.asset;
   if (asset.count == 0 || state.points.size() < asset.surface_vertices) return;
   place_fibres({asset.bindings, asset.points_per_fibre, state.points, bundle.points, bundle.length});
@@ -20,7 +20,7 @@ void measure_fibres(const SurfaceState& state, FibreBundle& bundle) {
 
 void measure_fibres(ecs::View<const SurfaceState, FibreBundle> muscles) {
   ecs::each_in_parallel(muscles, 1,
-                        [](const SurfaceState& state, FibreBundle& bundle) { measure_fibres(state, bundle); });
+                        [](const SurfaceState& state, FibreBundle& bundle) { measure_fibre_bundle(state, bundle); });
 }
 
 }  // namespace fascicle::muscle

@@ -10,6 +10,6 @@ namespace fascicle::muscle {
 void measure_fibres(ecs::View<const SurfaceState, FibreBundle> muscles);
 
 // The same for one.
-void measure_fibres(const SurfaceState& state, FibreBundle& bundle);
+void measure_fibre_bundle(const SurfaceState& state, FibreBundle& bundle);
 
 }  // namespace fascicle::muscle

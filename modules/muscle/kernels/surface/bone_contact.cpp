@@ -1,0 +1,76 @@
+#include "modules/muscle/kernels/surface/bone_contact.hpp"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace fascicle::muscle {
+namespace {
+
+// m inside, in voxels: deeper than this the nearest surface need not be the one that it came through.
+constexpr float kShallow = 2.0f;
+constexpr int kBisections = 12;
+
+glm::vec3 place(const SurfacePoint& p) { return {p.x, p.y, p.z}; }
+glm::vec3 apply(const glm::mat4& m, const glm::vec3& p) { return glm::vec3(m * glm::vec4(p, 1.0f)); }
+
+// Where the way from `outside` to `inside` comes as near as `distance`.
+glm::vec3 way_in(const BoneField& field, const glm::vec3& outside, const glm::vec3& inside, float distance) {
+  float out = 0.0f, in = 1.0f;
+  for (int i = 0; i < kBisections; ++i) {
+    const float middle = 0.5f * (out + in);
+    (field.distance(glm::mix(outside, inside, middle)) < distance ? in : out) = middle;
+  }
+  return glm::mix(outside, inside, out);
+}
+
+}  // namespace
+
+std::size_t find_near_bone(const SurfaceBone& bone, std::span<const SurfacePoint> points, float reach,
+                           std::span<std::uint32_t> near) {
+  const glm::vec3 lower = bone.field->lower() - reach, upper = bone.field->upper() + reach;
+  std::size_t count = 0;
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
+    if (!(points[v].inverse_mass > 0.0f)) continue;
+    const glm::vec3 q = apply(bone.to_bone, place(points[v]));
+    if (glm::any(glm::lessThan(q, lower)) || glm::any(glm::greaterThan(q, upper))) continue;
+    if (bone.field->distance(q) < reach) near[count++] = v;
+  }
+  return count;
+}
+
+void push_from_bone(const SurfaceBone& bone, std::span<const std::uint32_t> near, std::span<const SurfacePoint> before,
+                    float distance, float friction, std::span<SurfacePoint> points, BoneTouch& touch) {
+  touch.vertices = 0;
+  for (const std::uint32_t v : near) {
+    SurfacePoint& p = points[v];
+    const glm::vec3 q = apply(bone.to_bone, place(p));
+    const FieldValue value = bone.field->at(q);
+    const float depth = distance - value.distance;
+    if (!(depth > 0.0f)) continue;
+    const glm::vec3 came_from = apply(bone.to_bone_before, place(before[v]));
+    glm::vec3 out = q + depth * value.gradient;
+    const bool deep = value.distance < -kShallow * bone.field->voxel() || value.gradient == glm::vec3(0.0f);
+    if (deep && bone.field->distance(came_from) >= distance) out = way_in(*bone.field, came_from, q, distance);
+    if (friction > 0.0f) {
+      const glm::vec3 slid = out - came_from - glm::dot(out - came_from, value.gradient) * value.gradient;
+      const float length = glm::length(slid);
+      if (length > 0.0f) out -= slid * std::min(1.0f, friction * depth / length);
+    }
+    const glm::vec3 moved = apply(bone.from_bone, out);
+    p.x = moved.x;
+    p.y = moved.y;
+    p.z = moved.z;
+    ++touch.vertices;
+    if (depth > touch.depth) {
+      touch.depth = depth;
+      touch.deepest = v;
+    }
+  }
+}
+
+}  // namespace fascicle::muscle

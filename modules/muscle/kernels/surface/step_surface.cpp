@@ -1,0 +1,191 @@
+#include "modules/muscle/kernels/surface/step_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr float kLeastReach = 0.003f;     // m beyond the contact distance that a vertex may come nearer to a bone in a step
+constexpr float kReachPerSpeed = 2.0f;    // of what the fastest vertex moved in the last step
+constexpr float kFurthest = 4.0f;         // of the muscle's size at rest, between two vertices: more has diverged
+
+glm::vec3 place(const SurfacePoint& p) { return {p.x, p.y, p.z}; }
+
+void set(SurfacePoint& p, const glm::vec3& at) {
+  p.x = at.x;
+  p.y = at.y;
+  p.z = at.z;
+}
+
+glm::dvec3 apply(const glm::dmat4& m, const glm::dvec3& p) { return glm::dvec3(m * glm::dvec4(p, 1.0)); }
+
+// Part of the way along a motion: turned evenly, moved straight. Its ends are exact.
+glm::dmat4 part_of(const RigidMotion& motion, double fraction) {
+  if (fraction >= 1.0 || motion.from == motion.to) return glm::dmat4(motion.to);
+  if (fraction <= 0.0) return glm::dmat4(motion.from);
+  const glm::dmat3 from(motion.from), to(motion.to);
+  const glm::dquat turn = glm::normalize(glm::quat_cast(to * glm::inverse(from)));
+  glm::dmat4 result(glm::mat3_cast(glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), turn, fraction)) * from);
+  result[3] = glm::mix(glm::dvec4(motion.from[3]), glm::dvec4(motion.to[3]), fraction);
+  return result;
+}
+
+// The rows that PredictJob wants; exactly zero for what does not move.
+void set_moved(const RigidMotion& motion, double begin, double end, float* rows) {
+  std::fill_n(rows, 12, 0.0f);
+  if (motion.from == motion.to) return;
+  const glm::dmat4 moved = part_of(motion, end) * glm::inverse(part_of(motion, begin)) - glm::dmat4(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) rows[4 * row + column] = static_cast<float>(moved[column][row]);
+  }
+}
+
+void attach(const SurfaceStep& step, SurfaceScratch& scratch, double fraction) {
+  for (std::size_t i = 0; i < step.attachments.size(); ++i) {
+    scratch.attached[i] = glm::mat4(part_of(step.attachments[i], fraction));
+  }
+  const SurfaceAsset& asset = *step.asset;
+  for (const AttachedVertex& attached : asset.attached) {
+    const RigidMotion& motion = step.attachments[attached.attachment];
+    if (motion.from == motion.to) continue;  // it stands there already
+    const glm::vec3 rest = place(asset.rest[attached.vertex]);
+    set(step.points[attached.vertex], glm::vec3(scratch.attached[attached.attachment] * glm::vec4(rest, 1.0f)));
+  }
+}
+
+void place_bones(const SurfaceStep& step, SurfaceScratch& scratch, double begin, double end) {
+  for (std::size_t b = 0; b < step.bones.size(); ++b) {
+    SurfaceBone& bone = scratch.bones[b];
+    bone.field = step.fields[b];
+    if (bone.field == nullptr) continue;
+    const glm::dmat4 to_rest_bone(step.rest_to_bone[b]);
+    const glm::dmat4 now = to_rest_bone * glm::inverse(part_of(step.bones[b], end));
+    bone.to_bone = glm::mat4(now);
+    bone.from_bone = glm::mat4(glm::inverse(now));
+    bone.to_bone_before = glm::mat4(to_rest_bone * glm::inverse(part_of(step.bones[b], begin)));
+  }
+}
+
+// How far a vertex and a bone may come together within the step: by what the fastest vertex does, and by how far the
+// bone's box moves.
+float reach_of(const SurfaceStep& step, const SurfaceBone& bone, const RigidMotion& motion, float fastest) {
+  float carried = 0.0f;
+  const glm::mat4 moved = motion.to * glm::inverse(motion.from);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 local(corner & 1 ? bone.field->upper().x : bone.field->lower().x,
+                          corner & 2 ? bone.field->upper().y : bone.field->lower().y,
+                          corner & 4 ? bone.field->upper().z : bone.field->lower().z);
+    const glm::vec3 at(bone.from_bone * glm::vec4(local, 1.0f));
+    carried = std::max(carried, glm::distance(at, glm::vec3(moved * glm::vec4(at, 1.0f))));
+  }
+  return step.settings.contact_distance + kLeastReach + kReachPerSpeed * fastest * step.step + carried;
+}
+
+void find_near(const SurfaceStep& step, SurfaceScratch& scratch) {
+  float fastest = 0.0f;
+  for (const SurfacePoint& v : step.velocity) fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
+  fastest = std::sqrt(fastest);
+  const std::span<const SurfacePoint> vertices = step.points.first(step.asset->vertex_count);
+  place_bones(step, scratch, 0.0, 0.0);
+  for (std::size_t b = 0; b < step.bones.size(); ++b) {
+    scratch.touches[b] = {};
+    const std::size_t first = scratch.first_near[b];
+    std::size_t count = 0;
+    if (step.fields[b] != nullptr && step.settings.collide_with_bones) {
+      count = find_near_bone(scratch.bones[b], vertices, reach_of(step, scratch.bones[b], step.bones[b], fastest),
+                             std::span(scratch.near).subspan(first));
+    }
+    scratch.first_near[b + 1] = first + count;
+  }
+}
+
+}  // namespace
+
+void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch) {
+  scratch.before.assign(asset.vertex_count, SurfacePoint{});
+  scratch.gradient.assign(asset.vertex_count, SurfacePoint{});
+  scratch.near.assign(asset.vertex_count * asset.bones.size(), 0);
+  scratch.first_near.assign(asset.bones.size() + 1, 0);
+  scratch.attached.assign(asset.attachments.size(), glm::mat4(1.0f));
+  scratch.moved.assign(12 * asset.carriers.size(), 0.0f);
+  scratch.touches.assign(asset.bones.size(), BoneTouch{});
+  scratch.bones.assign(asset.bones.size(), SurfaceBone{});
+}
+
+double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
+  const SurfaceAsset& asset = *step.asset;
+  const SurfaceSettings& settings = step.settings;
+  const float h = step.step / static_cast<float>(settings.substeps);
+  const float inverse_h2 = 1.0f / (h * h);
+  const PredictJob predict{.carry = asset.carry, .moved = scratch.moved, .vertex_count = asset.vertex_count,
+                           .points = step.points, .before = scratch.before, .velocity = step.velocity, .h = h,
+                           .keep = std::exp(-settings.damping * h)};
+  const HingeJob hinges{.packs = asset.packs, .points = step.points, .inverse_h2 = inverse_h2};
+  const VolumeJob volume{.triangles = asset.triangles, .vertex_count = asset.vertex_count, .points = step.points,
+                         .gradient = scratch.gradient, .rest = asset.kernel_volume,
+                         .compliance = 36.0f * settings.volume_compliance * inverse_h2};
+  double six_volumes = asset.kernel_volume;
+  find_near(step, scratch);
+  for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
+    const double begin = static_cast<double>(substep) / settings.substeps;
+    const double end = static_cast<double>(substep + 1) / settings.substeps;
+    for (std::size_t c = 0; c < step.carriers.size(); ++c) {
+      set_moved(step.carriers[c], begin, end, &scratch.moved[12 * c]);
+    }
+    step.kernels->predict(predict);
+    attach(step, scratch, end);
+    place_bones(step, scratch, begin, end);
+    for (std::uint32_t i = 0; i < settings.iterations; ++i) {
+      step.kernels->project_hinges(hinges);
+      six_volumes = step.kernels->project_volume(volume);
+      for (std::size_t b = 0; b < step.bones.size(); ++b) {
+        const auto near = std::span(scratch.near).subspan(scratch.first_near[b],
+                                                          scratch.first_near[b + 1] - scratch.first_near[b]);
+        if (near.empty()) continue;
+        push_from_bone(scratch.bones[b], near, scratch.before, settings.contact_distance, settings.friction,
+                       step.points, scratch.touches[b]);
+      }
+    }
+    step.kernels->take_velocities(predict);
+  }
+  return six_volumes / 6.0;
+}
+
+void carry_rest_shape(const SurfaceStep& step) {
+  const SurfaceAsset& asset = *step.asset;
+  for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
+    const glm::dvec3 rest(place(asset.rest[v]));
+    glm::dvec3 moved(0.0);
+    for (std::size_t i = 0; i < 4 && !asset.carry.empty(); ++i) {
+      const CarryWeights& carry = asset.carry[v];
+      const glm::mat4& to = step.carriers[carry.carrier[i]].to;
+      if (carry.weight[i] > 0.0f && to != glm::mat4(1.0f)) {
+        moved += static_cast<double>(carry.weight[i]) * (apply(glm::dmat4(to), rest) - rest);
+      }
+    }
+    set(step.points[v], glm::vec3(rest + moved));
+  }
+  for (const AttachedVertex& attached : asset.attached) {
+    const glm::mat4& to = step.attachments[attached.attachment].to;
+    if (to == glm::mat4(1.0f)) continue;
+    set(step.points[attached.vertex], glm::vec3(apply(glm::dmat4(to), glm::dvec3(place(asset.rest[attached.vertex])))));
+  }
+  std::fill(step.velocity.begin(), step.velocity.end(), SurfacePoint{});
+}
+
+bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points) {
+  const glm::vec3 first = place(points[0]);
+  for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
+    if (!(glm::distance(place(points[v]), first) <= kFurthest * asset.size)) return false;
+  }
+  return std::isfinite(first.x + first.y + first.z);
+}
+
+}  // namespace fascicle::muscle
