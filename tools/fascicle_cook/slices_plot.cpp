@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+
+#include "tools/fascicle_cook/svg_plot.hpp"
 
 namespace fascicle::cook {
 namespace {
@@ -16,107 +16,6 @@ namespace {
 constexpr double kCirclePerimeter = 3.5449077018110318;  // of a circle with an area of 1
 constexpr const char* kConvexColour = "#2a6fbb";
 constexpr const char* kConcaveColour = "#d9661f";
-
-// A rectangle of the picture (pixels, y down) and the values at its sides.
-struct Panel {
-  double left, top, width, height;
-  double x0, x1, y0, y1;
-
-  double x(double value) const { return left + (value - x0) / (x1 - x0) * width; }
-  double y(double value) const { return top + height - (value - y0) / (y1 - y0) * height; }
-};
-
-std::string escape(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return result;
-}
-
-class Svg {
- public:
-  Svg(double width, double height) {
-    text_ = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n"
-        "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
-        width, height);
-  }
-
-  void text(double x, double y, int size, const char* anchor, const std::string& words, const char* colour = "#222222",
-            const char* more = "") {
-    text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" ", x, y, size);
-    text_ += fmt::format("text-anchor=\"{}\" fill=\"{}\"{}>", anchor, colour, more);
-    text_ += escape(words) + "</text>\n";
-  }
-  void turned_text(double x, double y, int size, const std::string& words) {
-    text(x, y, size, "middle", words, "#222222", fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, y).c_str());
-  }
-  void line(double x0, double y0, double x1, double y1, const char* style) {
-    text_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x0, y0, x1, y1, style);
-  }
-  void box(double x, double y, double width, double height, const char* style) {
-    text_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", x, y, width,
-                         height, style);
-  }
-  void circle(double x, double y, double radius, const std::string& style) {
-    text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>\n", x, y, radius, style);
-  }
-  // Points closer than half a pixel to the one before are left out.
-  void path(std::span<const glm::dvec2> points, bool closed, const std::string& style) {
-    if (points.empty()) return;
-    text_ += "<path d=\"";
-    glm::dvec2 last = points[0];
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (i > 0 && i + 1 < points.size() && glm::distance(points[i], last) < 0.5) continue;
-      text_ += fmt::format("{}{:.1f} {:.1f}", i == 0 ? 'M' : 'L', points[i].x, points[i].y);
-      last = points[i];
-    }
-    text_ += fmt::format("{}\" {}/>\n", closed ? "Z" : "", style);
-  }
-  std::string finish() { return std::move(text_) + "</svg>\n"; }
-
- private:
-  std::string text_;
-};
-
-constexpr const char* kAxis = "stroke=\"#444444\" stroke-width=\"1.2\"";
-constexpr const char* kGrid = "stroke=\"#e3e5e8\" stroke-width=\"1\"";
-
-// 1, 2 or 5 times a power of ten, so that `range` has at most `most` of them.
-double tick_step(double range, double most) {
-  const double power = std::pow(10.0, std::floor(std::log10(range / most)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (range <= most * factor * power) return factor * power;
-  }
-  return 10.0 * power;
-}
-
-void draw_frame(Svg& svg, const Panel& panel, double step_x, double step_y, const char* x_label, const char* y_label) {
-  const auto steps = [](double from, double to, double step, auto&& each) {
-    for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; i += 1.0) each(i * step);
-  };
-  const double bottom = panel.top + panel.height, right = panel.left + panel.width;
-  steps(panel.x0, panel.x1, step_x, [&](double value) {
-    svg.line(panel.x(value), panel.top, panel.x(value), bottom, kGrid);
-    svg.line(panel.x(value), bottom, panel.x(value), bottom + 5, kAxis);
-    svg.text(panel.x(value), bottom + 21, 13, "middle", fmt::format("{:.{}f}", value + 0.0, step_x < 1.0 ? 1 : 0));
-  });
-  steps(panel.y0, panel.y1, step_y, [&](double value) {
-    svg.line(panel.left, panel.y(value), right, panel.y(value), kGrid);
-    svg.line(panel.left - 5, panel.y(value), panel.left, panel.y(value), kAxis);
-    svg.text(panel.left - 9, panel.y(value) + 4.5, 13, "end", fmt::format("{:.1f}", value + 0.0));
-  });
-  svg.box(panel.left, panel.top, panel.width, panel.height, "fill=\"none\" stroke=\"#444444\" stroke-width=\"1.2\"");
-  svg.text(panel.left + 0.5 * panel.width, bottom + 45, 15, "middle", x_label);
-  svg.turned_text(panel.left - 46, panel.top + 0.5 * panel.height, 15, y_label);
-}
 
 // Those with a loop that has an area.
 std::vector<const SliceOutline*> outlines_of(std::span<const MeshSlice> slices) {
@@ -183,7 +82,7 @@ void plot_counts(Svg& svg, const Panel& panel, std::span<const SliceOutline* con
     svg.box(panel.left, top + 1, length, bottom - top - 2, "fill=\"#b9c1cc\"");
     svg.text(panel.left + length + 5, 0.5 * (top + bottom) + 4, 12, "start", fmt::format("{}", bins[bin]), "#555555");
   }
-  svg.line(panel.left, panel.top, panel.left, panel.top + panel.height, kAxis);
+  svg.line(panel.left, panel.top, panel.left, panel.top + panel.height, kAxisStyle);
   svg.text(panel.left + 0.5 * panel.width, panel.top + panel.height + 45, 15, "middle", "slices");
 }
 
