@@ -398,6 +398,156 @@ FASCICLE_INLINE void store_records(WideFloat<N> x, WideFloat<N> y, WideFloat<N> 
   store_records<kStream>(x.hi, y.hi, z.hi, w.hi, to + N / 2 * 4);
 }
 
+// --- Records of four floats at places of their own: lane i is the record `index[i]`, whose address must be aligned to
+// 16 bytes. 128-bit loads and stores and transposes: the processors' own gathers take a float at a time.
+
+template <int N>
+struct WideRecord {
+  WideFloat<N> x, y, z, w;
+};
+
+FASCICLE_INLINE __m128 load_record(const float* records, const int* index, int lane) {
+  return _mm_load_ps(records + 4 * static_cast<long>(index[lane]));
+}
+
+template <int N>
+FASCICLE_INLINE WideRecord<N> load_records(const float* records, const int* index) {
+  if constexpr (!kIsNative<N>) {
+    const WideRecord<N / 2> lo = load_records<N / 2>(records, index), hi = load_records<N / 2>(records, index + N / 2);
+    return {{lo.x, hi.x}, {lo.y, hi.y}, {lo.z, hi.z}, {lo.w, hi.w}};
+  } else if constexpr (N == 4) {
+    __m128 a = load_record(records, index, 0), b = load_record(records, index, 1);
+    __m128 c = load_record(records, index, 2), d = load_record(records, index, 3);
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    return {{a}, {b}, {c}, {d}};
+#if defined(__AVX2__)
+  } else if constexpr (N == 8) {
+    __m256 row[4];  // of lanes i and i + 4
+    for (int i = 0; i < 4; ++i) {
+      row[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(load_record(records, index, i)),
+                                    load_record(records, index, i + 4), 1);
+    }
+    const __m256 xy_lo = _mm256_unpacklo_ps(row[0], row[1]), zw_lo = _mm256_unpackhi_ps(row[0], row[1]);
+    const __m256 xy_hi = _mm256_unpacklo_ps(row[2], row[3]), zw_hi = _mm256_unpackhi_ps(row[2], row[3]);
+    return {{_mm256_shuffle_ps(xy_lo, xy_hi, 0x44)}, {_mm256_shuffle_ps(xy_lo, xy_hi, 0xee)},
+            {_mm256_shuffle_ps(zw_lo, zw_hi, 0x44)}, {_mm256_shuffle_ps(zw_lo, zw_hi, 0xee)}};
+#endif
+#if defined(__AVX512F__)
+  } else {
+    __m512 row[4];  // of lanes i, i + 4, i + 8 and i + 12
+    for (int i = 0; i < 4; ++i) {
+      row[i] = _mm512_castps128_ps512(load_record(records, index, i));
+      row[i] = _mm512_mask_broadcast_f32x4(row[i], 0x00f0, load_record(records, index, i + 4));
+      row[i] = _mm512_mask_broadcast_f32x4(row[i], 0x0f00, load_record(records, index, i + 8));
+      row[i] = _mm512_mask_broadcast_f32x4(row[i], 0xf000, load_record(records, index, i + 12));
+    }
+    const __m512 xy_lo = _mm512_unpacklo_ps(row[0], row[1]), zw_lo = _mm512_unpackhi_ps(row[0], row[1]);
+    const __m512 xy_hi = _mm512_unpacklo_ps(row[2], row[3]), zw_hi = _mm512_unpackhi_ps(row[2], row[3]);
+    return {{_mm512_shuffle_ps(xy_lo, xy_hi, 0x44)}, {_mm512_shuffle_ps(xy_lo, xy_hi, 0xee)},
+            {_mm512_shuffle_ps(zw_lo, zw_hi, 0x44)}, {_mm512_shuffle_ps(zw_lo, zw_hi, 0xee)}};
+#endif
+  }
+}
+
+FASCICLE_INLINE void store_record(float* records, const int* index, int lane, __m128 record) {
+  _mm_store_ps(records + 4 * static_cast<long>(index[lane]), record);
+}
+
+template <int N>
+FASCICLE_INLINE void store_records_at(WideRecord<N> a, float* records, const int* index) {
+  if constexpr (!kIsNative<N>) {
+    store_records_at<N / 2>({a.x.lo, a.y.lo, a.z.lo, a.w.lo}, records, index);
+    store_records_at<N / 2>({a.x.hi, a.y.hi, a.z.hi, a.w.hi}, records, index + N / 2);
+  } else if constexpr (N == 4) {
+    __m128 x = a.x.v, y = a.y.v, z = a.z.v, w = a.w.v;
+    _MM_TRANSPOSE4_PS(x, y, z, w);
+    store_record(records, index, 0, x);
+    store_record(records, index, 1, y);
+    store_record(records, index, 2, z);
+    store_record(records, index, 3, w);
+#if defined(__AVX2__)
+  } else if constexpr (N == 8) {
+    const __m256 xy_lo = _mm256_unpacklo_ps(a.x.v, a.y.v), xy_hi = _mm256_unpackhi_ps(a.x.v, a.y.v);
+    const __m256 zw_lo = _mm256_unpacklo_ps(a.z.v, a.w.v), zw_hi = _mm256_unpackhi_ps(a.z.v, a.w.v);
+    const __m256 row[4] = {_mm256_shuffle_ps(xy_lo, zw_lo, 0x44), _mm256_shuffle_ps(xy_lo, zw_lo, 0xee),
+                           _mm256_shuffle_ps(xy_hi, zw_hi, 0x44), _mm256_shuffle_ps(xy_hi, zw_hi, 0xee)};
+    for (int i = 0; i < 4; ++i) {
+      store_record(records, index, i, _mm256_castps256_ps128(row[i]));
+      store_record(records, index, i + 4, _mm256_extractf128_ps(row[i], 1));
+    }
+#endif
+#if defined(__AVX512F__)
+  } else {
+    const __m512 xy_lo = _mm512_unpacklo_ps(a.x.v, a.y.v), xy_hi = _mm512_unpackhi_ps(a.x.v, a.y.v);
+    const __m512 zw_lo = _mm512_unpacklo_ps(a.z.v, a.w.v), zw_hi = _mm512_unpackhi_ps(a.z.v, a.w.v);
+    const __m512 row[4] = {_mm512_shuffle_ps(xy_lo, zw_lo, 0x44), _mm512_shuffle_ps(xy_lo, zw_lo, 0xee),
+                           _mm512_shuffle_ps(xy_hi, zw_hi, 0x44), _mm512_shuffle_ps(xy_hi, zw_hi, 0xee)};
+    for (int i = 0; i < 4; ++i) {
+      store_record(records, index, i, _mm512_castps512_ps128(row[i]));
+      store_record(records, index, i + 4, _mm512_extractf32x4_ps(row[i], 1));
+      store_record(records, index, i + 8, _mm512_extractf32x4_ps(row[i], 2));
+      store_record(records, index, i + 12, _mm512_extractf32x4_ps(row[i], 3));
+    }
+#endif
+  }
+}
+
+// --- N floats as N / 4 records side by side.
+
+// Every record's floats in another order: the i-th of the answer is number (kOrder >> 2 i) & 3.
+inline constexpr int kYzxw = 0xc9, kAllW = 0xff;
+template <int kOrder, int N>
+FASCICLE_INLINE WideFloat<N> reorder(WideFloat<N> a) {
+  if constexpr (!kIsNative<N>) return {reorder<kOrder>(a.lo), reorder<kOrder>(a.hi)};
+  else if constexpr (N == 4) return {_mm_shuffle_ps(a.v, a.v, kOrder)};
+#if defined(__AVX2__)
+  else if constexpr (N == 8) return {_mm256_permute_ps(a.v, kOrder)};
+#endif
+#if defined(__AVX512F__)
+  else if constexpr (N == 16) return {_mm512_permute_ps(a.v, kOrder)};
+#endif
+}
+
+// Two floats of every record of `a`, then two of `b`, chosen likewise.
+inline constexpr int kFirstTwo = 0x44, kLastTwo = 0xee, kEven = 0x88, kOdd = 0xdd;
+template <int kOrder, int N>
+FASCICLE_INLINE WideFloat<N> join(WideFloat<N> a, WideFloat<N> b) {
+  if constexpr (!kIsNative<N>) return {join<kOrder>(a.lo, b.lo), join<kOrder>(a.hi, b.hi)};
+  else if constexpr (N == 4) return {_mm_shuffle_ps(a.v, b.v, kOrder)};
+#if defined(__AVX2__)
+  else if constexpr (N == 8) return {_mm256_shuffle_ps(a.v, b.v, kOrder)};
+#endif
+#if defined(__AVX512F__)
+  else if constexpr (N == 16) return {_mm512_shuffle_ps(a.v, b.v, kOrder)};
+#endif
+}
+
+// One record everywhere, from any address; and N / 4 records at addresses of their own.
+template <int N>
+FASCICLE_INLINE WideFloat<N> repeat_record(const float* record) {
+  if constexpr (!kIsNative<N>) return {repeat_record<N / 2>(record), repeat_record<N / 2>(record)};
+  else if constexpr (N == 4) return {_mm_loadu_ps(record)};
+#if defined(__AVX2__)
+  else if constexpr (N == 8) return {_mm256_broadcast_ps(reinterpret_cast<const __m128*>(record))};
+#endif
+#if defined(__AVX512F__)
+  else if constexpr (N == 16) return {_mm512_broadcast_f32x4(_mm_loadu_ps(record))};
+#endif
+}
+FASCICLE_INLINE WideFloat<16> join_records(const float* a, const float* b, const float* c, const float* d) {
+#if defined(__AVX512F__)
+  __m512 all = _mm512_castps128_ps512(_mm_loadu_ps(a));
+  all = _mm512_mask_broadcast_f32x4(all, 0x00f0, _mm_loadu_ps(b));
+  all = _mm512_mask_broadcast_f32x4(all, 0x0f00, _mm_loadu_ps(c));
+  return {_mm512_mask_broadcast_f32x4(all, 0xf000, _mm_loadu_ps(d))};
+#elif defined(__AVX2__)
+  return {{_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1)},
+          {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(c)), _mm_loadu_ps(d), 1)}};
+#else
+  return {{{_mm_loadu_ps(a)}, {_mm_loadu_ps(b)}}, {{_mm_loadu_ps(c)}, {_mm_loadu_ps(d)}}};
+#endif
+}
+
 // --- Three of them, as vectors in space.
 
 template <int N>

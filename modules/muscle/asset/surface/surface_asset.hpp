@@ -19,6 +19,7 @@
 #include "engine/content/result.hpp"
 #include "engine/math/aligned_vector.hpp"
 #include "modules/muscle/asset/surface/surface_description.hpp"
+#include "modules/muscle/asset/surface/vertex_rings.hpp"
 
 namespace fascicle::muscle {
 
@@ -85,6 +86,7 @@ struct SurfaceAsset {
   std::vector<Hinge> hinges;                    // one an edge: those that can move first, in the packs' order
   AlignedVector<HingePack> packs;
   std::vector<std::uint32_t> first_pack;        // by colour, and one more: their number
+  VertexRings rings;                            // of the triangles, for the volume
   double volume = 0.0;                          // m^3
   double kernel_volume = 0.0;                   // m^3, six volumes, as the kernels measure it at rest
   float mean_edge = 0.0f;                       // m

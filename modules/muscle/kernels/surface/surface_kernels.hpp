@@ -7,6 +7,7 @@
 
 #include "engine/math/simd_level.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
+#include "modules/muscle/asset/surface/vertex_rings.hpp"
 
 namespace fascicle::muscle {
 
@@ -33,9 +34,11 @@ struct VolumeJob {
   std::span<SurfacePoint> gradient;   // scratch, vertex_count
   double rest = 0.0;                  // V_0: six times the volume, as the same kernel measures it at rest
   float compliance = 0.0f;            // alpha_v / h^2, in the constraint's own units (six volumes)
+  const VertexRings* rings = nullptr; // of the triangles; without them the plain code does it
 };
 
-// Starts a substep: carried points go with their carriers, `before` keeps where they are, velocities fade and act.
+// Starts a substep: carried points go with their carriers, `before` keeps where they are, velocities fade and act, and
+// what holds the muscle in place pulls: point += pull (anchor - point).
 struct PredictJob {
   std::span<const CarryWeights> carry;    // empty: nothing carries
   std::span<const float> moved;           // 12 a carrier: rows of how it moves in this substep, less the identity
@@ -43,6 +46,17 @@ struct PredictJob {
   std::span<SurfacePoint> points, before, velocity;
   float h = 0.0f;                         // s
   float keep = 1.0f;                      // exp(-damping h)
+  std::span<const SurfacePoint> anchors;  // m, by vertex; unused without a pull
+  float pull = 0.0f;                      // 0..1, w / (w + alpha_a / h^2)
+};
+
+// Velocities' differences along edges fade (4.3's muscles do not ring): one pass over the packs, in which each edge's
+// ends give each other `share` of what they differ by, the lighter one the most. Momentum is kept; held points stay.
+struct ViscosityJob {
+  std::span<const HingePack> packs;
+  std::span<const SurfacePoint> points;   // with padding: masses
+  std::span<SurfacePoint> velocity;       // with padding
+  float share = 0.0f;                     // 0..1: 1 - exp(-viscosity t)
 };
 
 struct SurfaceKernels {
@@ -57,6 +71,7 @@ struct SurfaceKernels {
   // Lengths (m) and angles (rad) of all lanes, by the code of project_hinges, so that a mesh at rest is exactly so.
   void (*measure_hinges)(std::span<const HingePack> packs, std::span<const SurfacePoint> points,
                          std::span<float> lengths, std::span<float> angles);
+  void (*fade_differences)(const ViscosityJob& job);
 };
 
 // Of the level or the best below it that the processor has.

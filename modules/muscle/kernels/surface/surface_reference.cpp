@@ -145,6 +145,7 @@ void predict(const PredictJob& job) {
     add(p, carried);
     job.before[v] = p;
     add(p, job.h * job.keep * place(job.velocity[v]));
+    if (job.pull > 0.0f) add(p, job.pull * (place(job.anchors[v]) - place(p)));
   }
 }
 
@@ -168,6 +169,19 @@ void measure_hinges(std::span<const HingePack> packs, std::span<const SurfacePoi
   }
 }
 
+void fade_differences(const ViscosityJob& job) {
+  for (const HingePack& pack : job.packs) {
+    for (std::size_t lane = 0; lane < kHingeLanes; ++lane) {
+      const auto i = static_cast<std::size_t>(pack.vertex[0][lane]), j = static_cast<std::size_t>(pack.vertex[1][lane]);
+      const float w1 = job.points[i].inverse_mass, w2 = job.points[j].inverse_mass;
+      if (!(w1 + w2 > 0.0f)) continue;
+      const glm::vec3 push = job.share / (w1 + w2) * (place(job.velocity[j]) - place(job.velocity[i]));
+      add(job.velocity[i], w1 * push);
+      add(job.velocity[j], -w2 * push);
+    }
+  }
+}
+
 }  // namespace
 
 const SurfaceKernels& surface_reference_kernels() {
@@ -176,7 +190,8 @@ const SurfaceKernels& surface_reference_kernels() {
                                        .measure_volume = measure_volume,
                                        .predict = predict,
                                        .take_velocities = take_velocities,
-                                       .measure_hinges = measure_hinges};
+                                       .measure_hinges = measure_hinges,
+                                       .fade_differences = fade_differences};
   return kKernels;
 }
 

@@ -1,0 +1,1 @@
+#include "modules/muscle/kernels/surface/surface_kernel_table.hpp"
