@@ -12,11 +12,13 @@
 namespace fascicle::muscle {
 namespace {
 
-// The four largest of a vertex' shares, which sum to 1.
+// The four largest of a vertex' shares, which sum to 1. Squared before: a harmonic field is steepest beside a small
+// attachment, where edges would stretch most; its square is flat there.
 CarryWeights largest_shares(std::span<const float> fields, std::size_t vertex, std::size_t vertices) {
   CarryWeights result;
   for (std::size_t c = 0; c * vertices < fields.size(); ++c) {
-    const float share = glm::clamp(fields[c * vertices + vertex], 0.0f, 1.0f);
+    const float value = glm::clamp(fields[c * vertices + vertex], 0.0f, 1.0f);
+    const float share = value * value;
     std::size_t place = 4;
     while (place > 0 && result.weight[place - 1] < share) --place;
     if (place == 4) continue;

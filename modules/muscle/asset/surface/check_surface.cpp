@@ -167,12 +167,12 @@ class Checker {
   void check_settings() {
     const SurfaceSettings& s = description_.settings;
     check_range("substeps", static_cast<float>(s.substeps), 1, 1000);
-    check_range("iterations", static_cast<float>(s.iterations), 1, 1000);
     check_range("density", s.density, 1.0f, 1.0e5f);
     check_range("stretch_compliance", s.stretch_compliance, 0.0f, 1.0e6f);
     check_range("along_fibres", s.along_fibres, 0.0f, 1.0f);
     check_range("bend_compliance", s.bend_compliance, 0.0f, 1.0e9f);
     check_range("volume_compliance", s.volume_compliance, 0.0f, 1.0f);
+    check_range("anchor_compliance", s.anchor_compliance, 0.0f, 1.0e9f);
     check_range("damping", s.damping, 0.0f, 1.0e4f);
     check_range("viscosity", s.viscosity, 0.0f, 1.0e4f);
     check_range("contact_distance", s.contact_distance, 0.0f, 0.1f);

@@ -106,11 +106,35 @@ void find_near(const SurfaceStep& step, SurfaceScratch& scratch) {
   }
 }
 
+// Where the carriers bring the rest shape; exactly the rest shape where they stand at rest.
+void place_carried(const SurfaceStep& step, std::span<SurfacePoint> points) {
+  const SurfaceAsset& asset = *step.asset;
+  for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
+    const glm::vec3 rest = place(asset.rest[v]);
+    glm::vec3 moved(0.0f);
+    for (std::size_t i = 0; i < 4 && !asset.carry.empty(); ++i) {
+      const float weight = asset.carry[v].weight[i];
+      const glm::mat4& to = step.carriers[asset.carry[v].carrier[i]].to;
+      if (weight > 0.0f && to != glm::mat4(1.0f)) moved += weight * (glm::vec3(to * glm::vec4(rest, 1.0f)) - rest);
+    }
+    set(points[v], rest + moved);
+  }
+}
+
+float pull_of(const SurfaceStep& step, float inverse_h2) {
+  const float compliance = step.settings.anchor_compliance;
+  if (!(compliance > 0.0f) || step.asset->carry.empty()) return 0.0f;
+  float inverse_mass = 0.0f;
+  for (const SurfacePoint& p : step.asset->rest) inverse_mass = std::max(inverse_mass, p.inverse_mass);
+  return inverse_mass / (inverse_mass + compliance * inverse_h2);
+}
+
 }  // namespace
 
 void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch) {
   scratch.before.assign(asset.vertex_count, SurfacePoint{});
   scratch.gradient.assign(asset.vertex_count, SurfacePoint{});
+  scratch.anchors.assign(asset.vertex_count, SurfacePoint{});
   scratch.near.assign(asset.vertex_count * asset.bones.size(), 0);
   scratch.first_near.assign(asset.bones.size() + 1, 0);
   scratch.attached.assign(asset.attachments.size(), glm::mat4(1.0f));
@@ -126,12 +150,14 @@ double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
   const float inverse_h2 = 1.0f / (h * h);
   const PredictJob predict{.carry = asset.carry, .moved = scratch.moved, .vertex_count = asset.vertex_count,
                            .points = step.points, .before = scratch.before, .velocity = step.velocity, .h = h,
-                           .keep = std::exp(-settings.damping * h)};
+                           .keep = std::exp(-settings.damping * h), .anchors = scratch.anchors,
+                           .pull = pull_of(step, inverse_h2)};
   const HingeJob hinges{.packs = asset.packs, .points = step.points, .inverse_h2 = inverse_h2};
   const VolumeJob volume{.triangles = asset.triangles, .vertex_count = asset.vertex_count, .points = step.points,
                          .gradient = scratch.gradient, .rest = asset.kernel_volume,
                          .compliance = 36.0f * settings.volume_compliance * inverse_h2};
   double six_volumes = asset.kernel_volume;
+  if (predict.pull > 0.0f) place_carried(step, scratch.anchors);
   find_near(step, scratch);
   for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
     const double begin = static_cast<double>(substep) / settings.substeps;
@@ -142,16 +168,14 @@ double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
     step.kernels->predict(predict);
     attach(step, scratch, end);
     place_bones(step, scratch, begin, end);
-    for (std::uint32_t i = 0; i < settings.iterations; ++i) {
-      step.kernels->project_hinges(hinges);
-      six_volumes = step.kernels->project_volume(volume);
-      for (std::size_t b = 0; b < step.bones.size(); ++b) {
-        const auto near = std::span(scratch.near).subspan(scratch.first_near[b],
-                                                          scratch.first_near[b + 1] - scratch.first_near[b]);
-        if (near.empty()) continue;
-        push_from_bone(scratch.bones[b], near, scratch.before, settings.contact_distance, settings.friction,
-                       step.points, scratch.touches[b]);
-      }
+    step.kernels->project_hinges(hinges);
+    six_volumes = step.kernels->project_volume(volume);
+    for (std::size_t b = 0; b < step.bones.size(); ++b) {
+      const auto near = std::span(scratch.near).subspan(scratch.first_near[b],
+                                                        scratch.first_near[b + 1] - scratch.first_near[b]);
+      if (near.empty()) continue;
+      push_from_bone(scratch.bones[b], near, scratch.before, settings.contact_distance, settings.friction,
+                     step.points, scratch.touches[b]);
     }
     step.kernels->take_velocities(predict);
   }
@@ -159,23 +183,12 @@ double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
 }
 
 void carry_rest_shape(const SurfaceStep& step) {
-  const SurfaceAsset& asset = *step.asset;
-  for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
-    const glm::dvec3 rest(place(asset.rest[v]));
-    glm::dvec3 moved(0.0);
-    for (std::size_t i = 0; i < 4 && !asset.carry.empty(); ++i) {
-      const CarryWeights& carry = asset.carry[v];
-      const glm::mat4& to = step.carriers[carry.carrier[i]].to;
-      if (carry.weight[i] > 0.0f && to != glm::mat4(1.0f)) {
-        moved += static_cast<double>(carry.weight[i]) * (apply(glm::dmat4(to), rest) - rest);
-      }
-    }
-    set(step.points[v], glm::vec3(rest + moved));
-  }
-  for (const AttachedVertex& attached : asset.attached) {
+  place_carried(step, step.points);
+  for (const AttachedVertex& attached : step.asset->attached) {
     const glm::mat4& to = step.attachments[attached.attachment].to;
     if (to == glm::mat4(1.0f)) continue;
-    set(step.points[attached.vertex], glm::vec3(apply(glm::dmat4(to), glm::dvec3(place(asset.rest[attached.vertex])))));
+    const glm::dvec3 rest(place(step.asset->rest[attached.vertex]));
+    set(step.points[attached.vertex], glm::vec3(apply(glm::dmat4(to), rest)));
   }
   std::fill(step.velocity.begin(), step.velocity.end(), SurfacePoint{});
 }

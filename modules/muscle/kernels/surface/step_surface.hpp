@@ -1,7 +1,8 @@
 // One step of a surface muscle: XPBD (Macklin et al. 2016) in small substeps (2019), each with one pass, or some, over
 // all constraints of 4.1.
 //
-//   predict    vertices go with their carriers; then their own velocity, which fades, moves them
+//   predict    vertices go with their carriers; then their own velocity, which fades, moves them, and what holds them
+//              in place pulls weakly
 //   attach     attached vertices stand where their bones have them at the substep's end
 //   hinges     edges and dihedral angles, colour after colour
 //   volume     one Newton step of the whole mesh
@@ -15,7 +16,7 @@
 // muscles: what is seen is close to the resting shape of the pose.
 //
 // **Why compliances.** The change of a constraint's multiplier is -C / (w + alpha / h^2): how far a constraint gives
-// way depends on alpha and on what it works against, not on the number of substeps or passes.
+// way depends on alpha and on what it works against, not on the number of substeps.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +34,7 @@ namespace fascicle::muscle {
 // Scratch of one muscle's step, allocated once.
 struct SurfaceScratch {
   AlignedVector<SurfacePoint> before, gradient;  // by vertex
+  AlignedVector<SurfacePoint> anchors;           // by vertex: where the carriers bring the rest shape
   std::vector<std::uint32_t> near;               // bone after bone
   std::vector<std::size_t> first_near;           // by bone it collides with, and one more
   std::vector<glm::mat4> attached;               // by attachment: rest space -> simulation's frame, in a substep
