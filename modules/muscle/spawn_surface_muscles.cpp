@@ -32,7 +32,7 @@ ecs::Entity spawn_surface_muscle(ecs::World& world, ecs::Entity character, std::
 
   SurfaceState state;
   state.points = asset->rest;
-  state.velocity.assign(asset->vertex_count, SurfacePoint{});
+  state.velocity.assign(asset->rest.size(), SurfacePoint{});
   state.bones.assign(rest_bones.size(), glm::mat4(1.0f));
   state.attachment_motion.assign(asset->attachments.size(), RigidMotion{});
   state.carrier_motion.assign(asset->carriers.size(), RigidMotion{});

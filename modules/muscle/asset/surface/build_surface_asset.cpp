@@ -169,13 +169,15 @@ Result<std::shared_ptr<const SurfaceAsset>> build_surface_asset(const SurfaceMus
   for (const std::uint32_t i : packed.order) asset->hinges.push_back(hinges[i]);
   asset->hinges.insert(asset->hinges.end(), hinges.begin() + static_cast<std::ptrdiff_t>(movable), hinges.end());
 
+  asset->rings = build_vertex_rings(asset->triangles, asset->vertex_count);
   AlignedVector<SurfacePoint> scratch(asset->vertex_count);
   AlignedVector<SurfacePoint> rest = asset->rest;
   asset->kernel_volume = surface_kernels(SimdLevel::kPortable)
                              .measure_volume({.triangles = asset->triangles,
                                               .vertex_count = asset->vertex_count,
                                               .points = rest,
-                                              .gradient = scratch});
+                                              .gradient = scratch,
+                                              .rings = &asset->rings});
 
   if (!description.driver.empty()) {
     const auto muscle = static_cast<std::uint32_t>(find_muscle(*muscles, description.driver));

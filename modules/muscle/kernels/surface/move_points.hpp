@@ -61,6 +61,8 @@ inline void predict(const PointRows& rows) {
   float* before = reinterpret_cast<float*>(rows.before);
   const float* velocity = reinterpret_cast<const float*>(rows.velocity);
   const WideFloat<16> zero = broadcast<16>(0.0f), time = broadcast<16>(rows.h * rows.keep);
+  const WideFloat<16> pull = broadcast<16>(rows.pull);
+  const float* anchors = reinterpret_cast<const float*>(rows.anchors);
   const bool carried = rows.carry != nullptr && !is_still(rows.moved, rows.moved_count);
   for (std::size_t four = 0; 4 * four < rows.vertex_count; ++four) {
     WideFloat<16> p = load_vertices(points, four, rows.vertex_count);
@@ -68,7 +70,12 @@ inline void predict(const PointRows& rows) {
     if (carried) p = p + select(free, carry_four(rows, four, p), zero);
     store_vertices(p, before, four, rows.vertex_count);
     const WideFloat<16> v = select(load_int<16>(kMassLanes), zero, load_vertices(velocity, four, rows.vertex_count));
-    store_vertices(p + select(free, time * v, zero), points, four, rows.vertex_count);
+    WideFloat<16> moved = p + time * v;
+    if (anchors != nullptr) {
+      const WideFloat<16> away = load_vertices(anchors, four, rows.vertex_count) - moved;
+      moved = moved + select(load_int<16>(kMassLanes), zero, pull * away);
+    }
+    store_vertices(select(free, moved, p), points, four, rows.vertex_count);
   }
 }
 

@@ -155,7 +155,7 @@ double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
   const HingeJob hinges{.packs = asset.packs, .points = step.points, .inverse_h2 = inverse_h2};
   const VolumeJob volume{.triangles = asset.triangles, .vertex_count = asset.vertex_count, .points = step.points,
                          .gradient = scratch.gradient, .rest = asset.kernel_volume,
-                         .compliance = 36.0f * settings.volume_compliance * inverse_h2};
+                         .compliance = 36.0f * settings.volume_compliance * inverse_h2, .rings = &asset.rings};
   double six_volumes = asset.kernel_volume;
   if (predict.pull > 0.0f) place_carried(step, scratch.anchors);
   find_near(step, scratch);
@@ -178,6 +178,11 @@ double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
                      step.points, scratch.touches[b]);
     }
     step.kernels->take_velocities(predict);
+  }
+  // Once a step: what rings does so for longer than that.
+  if (settings.viscosity > 0.0f) {
+    step.kernels->fade_differences({.packs = asset.packs, .points = step.points, .velocity = step.velocity,
+                                    .share = 1.0f - std::exp(-settings.viscosity * step.step)});
   }
   return six_volumes / 6.0;
 }

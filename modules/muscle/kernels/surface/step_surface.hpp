@@ -7,7 +7,7 @@
 //   hinges     edges and dihedral angles, colour after colour
 //   volume     one Newton step of the whole mesh
 //   bones      vertices are pushed out of level sets (bone_contact.hpp)
-//   velocities from what all this has moved, beside the carriers
+//   velocities from what all this has moved, beside the carriers; once a step their differences along edges fade
 //
 // **Why inertia.** One pass over constraints moves what is wrong by an edge's length; a muscle of a hundred edges from
 // end to end would need thousands of passes to come to rest. With velocities a pass continues what the last one
@@ -60,7 +60,7 @@ struct SurfaceStep {
   std::span<const BoneField* const> fields;          // likewise; null: none
   std::span<const glm::mat4> rest_to_bone;           // likewise: rest space -> the field's frame
   std::span<SurfacePoint> points;                    // with padding
-  std::span<SurfacePoint> velocity;                  // m/s, by vertex
+  std::span<SurfacePoint> velocity;                  // m/s, with padding
 };
 
 // Returns the volume (m^3) at the last pass.

@@ -42,6 +42,8 @@ struct PointRows {
   SurfacePoint *points = nullptr, *before = nullptr, *velocity = nullptr;
   float h = 0.0f;
   float keep = 1.0f;
+  const SurfacePoint* anchors = nullptr;  // null: no pull
+  float pull = 0.0f;
 };
 
 struct ViscosityRows {

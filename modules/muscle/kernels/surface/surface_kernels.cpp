@@ -36,7 +36,9 @@ PointRows rows_of(const PredictJob& job) {
           .before = job.before.data(),
           .velocity = job.velocity.data(),
           .h = job.h,
-          .keep = job.keep};
+          .keep = job.keep,
+          .anchors = job.pull > 0.0f ? job.anchors.data() : nullptr,
+          .pull = job.pull};
 }
 
 bool has_rings(const VolumeJob& job) { return job.rings != nullptr && !job.rings->rows.empty(); }
