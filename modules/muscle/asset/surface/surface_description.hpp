@@ -44,13 +44,13 @@ struct FibreBundleSettings {
 
 // Compliances are those of XPBD: what a constraint of the muscle's mass gives way, whatever the substeps. Zero is rigid.
 struct SurfaceSettings {
-  std::uint32_t substeps = 6;            // a step
+  std::uint32_t substeps = 5;            // a step
   float density = 1060.0f;               // kg/m^3
-  float stretch_compliance = 0.0f;       // m/N, of an edge across the fibres
-  float along_fibres = 0.1f;             // 0..1: the least k = 1 - |u . v| (4.1); an edge's compliance is alpha / k
-  float bend_compliance = 1.0f;          // rad/(N m), of a dihedral angle
+  float stretch_compliance = 0.15f;      // m/N, of an edge across the fibres
+  float along_fibres = 0.2f;             // 0..1: the least k = 1 - |u . v| (4.1); an edge's compliance is alpha / k
+  float bend_compliance = 1.0e5f;        // rad/(N m), of a dihedral angle
   float volume_compliance = 0.0f;        // m^3/Pa
-  float anchor_compliance = 0.0f;        // m/N, of what holds a vertex where its carriers bring it: fascia, neighbours.
+  float anchor_compliance = 1500.0f;     // m/N, of what holds a vertex where its carriers bring it: fascia, neighbours.
                                          // 0: nothing does
   float damping = 2.0f;                  // 1/s: velocities beside the bones' fade by exp(-damping t)
   float viscosity = 60.0f;               // 1/s: velocities' differences along edges fade
