@@ -25,18 +25,25 @@ class Builder {
   Builder(const SurfaceAsset& asset, SurfaceTree& tree) : asset_(asset), tree_(tree), owned_(asset.vertex_count, 0) {
     const float radian = kEdgesPerRadian * asset.mean_edge;
     items_.resize(asset.triangle_count());
-    tree_.rest_normals.assign(asset.vertex_count, glm::vec3(0.0f));
+    tree_.rest_normals.assign(asset.vertex_count, SurfaceRange{});
+    std::vector<std::uint8_t> seen(asset.vertex_count, 0);
     for (std::uint32_t t = 0; t < items_.size(); ++t) {
       const glm::vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-      const glm::vec3 normal = glm::cross(b - a, c - a);
-      for (std::size_t k = 0; k < 3; ++k) tree_.rest_normals[asset.triangles[3 * t + k]] += normal;
-      const float length = glm::length(normal);
-      const glm::vec3 middle = (a + b + c) / 3.0f, turn = length > 0.0f ? normal * (radian / length) : glm::vec3(0.0f);
+      const glm::vec3 area = glm::cross(b - a, c - a);
+      const float length = glm::length(area);
+      const glm::vec3 normal = length > 0.0f ? area / length : glm::vec3(0.0f);
+      const glm::vec3 middle = (a + b + c) / 3.0f, turn = radian * normal;
       items_[t] = {{middle.x, middle.y, middle.z, turn.x, turn.y, turn.z}, t};
-    }
-    for (glm::vec3& normal : tree_.rest_normals) {
-      const float length = glm::length(normal);
-      normal = length > 0.0f ? normal / length : glm::vec3(0.0f);
+      for (std::size_t k = 0; k < 3 && length > 0.0f; ++k) {
+        const std::uint32_t v = asset.triangles[3 * t + k];
+        SurfaceRange& range = tree_.rest_normals[v];
+        for (int axis = 0; axis < 3; ++axis) {
+          float &lower = range.lower[static_cast<std::size_t>(axis)], &upper = range.upper[static_cast<std::size_t>(axis)];
+          lower = seen[v] != 0 ? std::min(lower, normal[axis]) : normal[axis];
+          upper = seen[v] != 0 ? std::max(upper, normal[axis]) : normal[axis];
+        }
+        seen[v] = 1;
+      }
     }
     if (items_.empty()) return;
     split(0, items_.size());

@@ -7,15 +7,19 @@
 // over.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
+#include "engine/math/aligned_vector.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 
 namespace fascicle::muscle {
+
+// A box, or between which bounds normals lie.
+struct alignas(32) SurfaceRange {
+  std::array<float, 4> lower{}, upper{};  // x, y, z and 0
+};
 
 struct SurfaceTree {
   // A node's left child is the next node. Leaves have `count` triangles from `first`; else count is 0.
@@ -29,7 +33,7 @@ struct SurfaceTree {
   std::vector<Node> nodes;               // the root first; empty: no triangle
   std::vector<std::uint32_t> triangles;  // numbers in the mesh, in the leaves' order
   std::vector<std::uint32_t> vertices;   // by leaf; each vertex is one leaf's own
-  std::vector<glm::vec3> rest_normals;   // by vertex: unit, outward; 0 where its triangles have no area
+  AlignedVector<SurfaceRange> rest_normals;  // by vertex: of the unit normals of its triangles
 };
 
 inline constexpr std::uint32_t kSurfaceLeaf = 8;  // triangles at most

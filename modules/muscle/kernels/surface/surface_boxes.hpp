@@ -4,7 +4,6 @@
 // all is passed over high up in the tree.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -13,10 +12,6 @@
 
 namespace fascicle::muscle {
 
-struct alignas(32) SurfaceRange {
-  std::array<float, 4> lower{}, upper{};  // x, y, z and nothing
-};
-
 struct alignas(16) SurfaceNormal {
   float x = 0.0f, y = 0.0f, z = 0.0f, unused = 0.0f;  // unit, outward; 0: no area
 };
@@ -24,7 +19,8 @@ struct alignas(16) SurfaceNormal {
 struct SurfaceBoxes {
   AlignedVector<SurfaceRange> boxes;           // m, by node
   AlignedVector<SurfaceRange> normal_ranges;   // by node; empty where the muscle does not collide with itself
-  AlignedVector<SurfaceNormal> triangle_normals, vertex_normals;
+  AlignedVector<SurfaceNormal> triangle_normals;
+  AlignedVector<SurfaceRange> vertex_normals;  // by vertex: of its triangles, so a sharp corner faces many ways
 };
 
 // Makes room. `itself`: for contacts with itself, too.

@@ -10,38 +10,31 @@
 #include <glm/common.hpp>
 
 #include "modules/muscle/kernels/surface/paired_points.hpp"
+#include "modules/muscle/kernels/surface/surface_range.hpp"
 #include "modules/muscle/kernels/surface/triangle_place.hpp"
 
 namespace fascicle::muscle {
 namespace {
 
+using namespace FASCICLE_ISA;
+
 // Contact distances: what is no further along the surface at rest is a neighbour, unless it faces the other way.
 constexpr float kNeighbourhood = 3.0f;
 // Cosine between normals at rest from which on two sides face each other: of a thin sheet, or of a furrow.
 constexpr float kFacesAtRest = -0.5f;
+// Cosine between normals from which on a vertex and a triangle of one muscle may meet: surfaces meet face to face, and
+// along a surface that only bends normals differ by less.
+constexpr float kFaces = -0.5f;
 // How near two sides of a muscle may come, of their distance at rest.
 constexpr float kThinnest = 0.5f;
 // Contact distances: vertices deeper than this in another muscle at rest have no side of it where they belong.
 constexpr float kDeepest = 4.0f;
+// Contact distances beside a triangle at which it counts, beside half of the margin.
+constexpr float kBeside = 0.25f;
+// Of the reach: heights that are worked out in another order round differently.
+constexpr float kSlack = 1.01f;
 // m: the places of two muscles that overlap at rest are rounded when they are brought into one frame.
 constexpr float kRounding = 1.0e-5f;
-
-bool near(const SurfaceRange& a, const SurfaceRange& b, float reach) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (a.lower[k] > b.upper[k] + reach || b.lower[k] > a.upper[k] + reach) return false;
-  }
-  return true;
-}
-
-// Whether a vector of one range and one of the other can point against each other.
-bool may_face(const SurfaceRange& a, const SurfaceRange& b) {
-  float least = 0.0f;
-  for (std::size_t k = 0; k < 3; ++k) {
-    least += std::min(std::min(a.lower[k] * b.lower[k], a.lower[k] * b.upper[k]),
-                      std::min(a.upper[k] * b.lower[k], a.upper[k] * b.upper[k]));
-  }
-  return least < 0.0f;
-}
 
 float extent(const SurfaceRange& box) {
   return std::max({box.upper[0] - box.lower[0], box.upper[1] - box.lower[1], box.upper[2] - box.lower[2]});
@@ -84,6 +77,7 @@ class Search {
   }
 
   void run() {
+    keep_touching();
     if (job_.first.tree->nodes.empty() || second_.tree->nodes.empty()) return;
     if (itself_) {
       within(0);
@@ -97,6 +91,25 @@ class Search {
  private:
   using Node = SurfaceTree::Node;
 
+  static bool touches(const SurfacePair& pair) {
+    return static_cast<float>(pair.side) * pair.height < pair.allowed;
+  }
+
+  // What was pressed may be so crumpled that it no longer faces what presses it: it stays paired without being found.
+  void keep_touching() {
+    for (const SurfacePair& pair : pairs_.last) {
+      if (!touches(pair)) continue;
+      const PairedPoints& vertices = pair.of_second != 0 ? second_points_ : first_points_;
+      const PairedPoints& triangles = pair.of_second != 0 ? first_points_ : second_points_;
+      const std::uint32_t* corners = triangles.corners(pair.triangle);
+      const glm::vec3 p = vertices.at(pair.vertex);
+      TrianglePlane plane;
+      TriangleWeights under;
+      if (!plane.set(triangles.at(corners[0]), triangles.at(corners[1]), triangles.at(corners[2]))) continue;
+      if (over(plane, p, plane.height(p), reach_, under)) add(pair);
+    }
+  }
+
   bool has_side(float clearance) const { return clearance > -kDeepest * job_.contact_distance; }
 
   SurfaceRange second_box(std::uint32_t n) const {
@@ -105,7 +118,8 @@ class Search {
   }
 
   bool may_face(std::uint32_t a, std::uint32_t b) const {
-    return muscle::may_face(job_.first.boxes->normal_ranges[a], job_.first.boxes->normal_ranges[b]);
+    const AlignedVector<SurfaceRange>& ranges = job_.first.boxes->normal_ranges;
+    return least_dot(load_range(ranges[a]), load_range(ranges[b])) < kFaces;
   }
 
   // Of one muscle: all below a node among each other.
@@ -113,7 +127,7 @@ class Search {
     if (!may_face(n, n)) return;
     const Node& node = job_.first.tree->nodes[n];
     if (node.count > 0) {
-      leaf_vertices(node, node, first_points_, first_points_, job_.first.boxes->boxes[n], false);
+      leaf_vertices(node, node, first_points_, first_points_, job_.first.boxes->boxes[n], n, false);
       return;
     }
     within(n + 1);
@@ -123,12 +137,12 @@ class Search {
 
   void between(std::uint32_t a, std::uint32_t b, const SurfaceRange& box_b) {
     const SurfaceRange& box_a = job_.first.boxes->boxes[a];
-    if (!near(box_a, box_b, reach_)) return;
+    if (!near(load_range(box_a), load_range(box_b), reach_)) return;
     if (itself_ && !may_face(a, b)) return;
     const Node &node_a = job_.first.tree->nodes[a], &node_b = second_.tree->nodes[b];
     if (node_a.count > 0 && node_b.count > 0) {
-      leaf_vertices(node_a, node_b, first_points_, second_points_, box_b, false);
-      leaf_vertices(node_b, node_a, second_points_, first_points_, box_a, !itself_);
+      leaf_vertices(node_a, node_b, first_points_, second_points_, box_b, b, false);
+      leaf_vertices(node_b, node_a, second_points_, first_points_, box_a, a, !itself_);
     } else if (node_b.count > 0 || (node_a.count == 0 && extent(box_a) >= extent(box_b))) {
       between(a + 1, b, box_b);
       between(node_a.right, b, box_b);
@@ -138,40 +152,62 @@ class Search {
     }
   }
 
-  // Own vertices of one leaf against the triangles of another, whose box is `box`.
+  // Own vertices of one leaf against the triangles of another, the node `node`, whose box is `box`.
   void leaf_vertices(const Node& of, const Node& against, const PairedPoints& vertices, const PairedPoints& triangles,
-                     const SurfaceRange& box, bool of_second) {
+                     const SurfaceRange& box, std::uint32_t node, bool of_second) {
     const SurfaceTree& vertex_tree = of_second ? *second_.tree : *job_.first.tree;
     const SurfaceTree& triangle_tree = of_second || itself_ ? *job_.first.tree : *second_.tree;
     const std::span<const float> clearances = of_second ? second_.clearance : job_.first.clearance;
     std::array<std::uint32_t, 3 * kSurfaceLeaf> numbers;
     std::array<glm::vec3, 3 * kSurfaceLeaf> places;
     std::size_t count = 0;
+    const WideRange bounds = load_range(box);
     for (std::uint32_t i = 0; i < of.own; ++i) {
       const std::uint32_t v = vertex_tree.vertices[of.first_vertex + i];
       if (!clearances.empty() && !has_side(clearances[v])) continue;
+      if (itself_ && !may_face_any(v, node)) continue;
       const glm::vec3 p = vertices.at(v);
-      const SurfaceRange point{{p.x, p.y, p.z, 0.0f}, {p.x, p.y, p.z, 0.0f}};
-      if (!near(point, box, reach_)) continue;
+      if (!near(point_range(p), bounds, reach_)) continue;
       numbers[count] = v;
       places[count++] = p;
     }
     for (std::uint32_t i = 0; count > 0 && i < against.count; ++i) {
       const std::uint32_t t = triangle_tree.triangles[against.first + i];
       const std::uint32_t* corners = triangles.corners(t);
+      const glm::vec3 corner = triangles.at(corners[0]);
       TrianglePlane plane;
-      if (!plane.set(triangles.at(corners[0]), triangles.at(corners[1]), triangles.at(corners[2]))) continue;
+      bool placed = false;
       for (std::size_t k = 0; k < count; ++k) {
-        if (itself_ && (!faces(numbers[k], t) || is_corner(numbers[k], corners))) continue;
-        const float clearance = clearances.empty() ? job_.contact_distance : clearances[numbers[k]];
-        test(numbers[k], places[k], t, plane, clearance, vertices, triangles, of_second);
+        const std::uint32_t v = numbers[k];
+        if (itself_ && (!faces(v, t) || !may_reach(places[k] - corner, t) || is_corner(v, corners))) continue;
+        if (!placed && !plane.set(corner, triangles.at(corners[1]), triangles.at(corners[2]))) break;
+        placed = true;
+        const float clearance = clearances.empty() ? job_.contact_distance : clearances[v];
+        test(v, places[k], t, plane, clearance, vertices, triangles, of_second);
       }
     }
   }
 
+  // Not where it is too high above the triangle's plane.
+  bool may_reach(const glm::vec3& from_corner, std::uint32_t t) const {
+    const SurfaceNormal& n = job_.first.boxes->triangle_normals[t];
+    const float height = n.x * from_corner.x + n.y * from_corner.y + n.z * from_corner.z;
+    return std::abs(height) <= kSlack * reach_;
+  }
+
+  static WideRange point_range(const glm::vec3& p) {
+    const float of[4] = {p.x, p.y, p.z, 0.0f};
+    return {load<4>(of), load<4>(of)};
+  }
+
+  bool may_face_any(std::uint32_t v, std::uint32_t node) const {
+    const SurfaceBoxes& boxes = *job_.first.boxes;
+    return least_dot(load_range(boxes.vertex_normals[v]), load_range(boxes.normal_ranges[node])) < kFaces;
+  }
+
   bool faces(std::uint32_t v, std::uint32_t t) const {
-    const SurfaceNormal &a = job_.first.boxes->vertex_normals[v], &b = job_.first.boxes->triangle_normals[t];
-    return a.x * b.x + a.y * b.y + a.z * b.z < 0.0f;
+    const FourLanes normal = load<4>(&job_.first.boxes->triangle_normals[t].x);
+    return least_dot(load_range(job_.first.boxes->vertex_normals[v]), {normal, normal}) < kFaces;
   }
 
   static bool is_corner(std::uint32_t v, const std::uint32_t* corners) {
@@ -180,25 +216,22 @@ class Search {
 
   void test(std::uint32_t v, const glm::vec3& p, std::uint32_t t, const TrianglePlane& plane, float clearance,
             const PairedPoints& vertices, const PairedPoints& triangles, bool of_second) {
-    const float reach = std::max(job_.contact_distance, -clearance) + job_.margin;
+    SurfacePair pair;
+    pair.vertex = v;
+    pair.triangle = t;
+    pair.of_second = of_second ? 1 : 0;
+    TriangleWeights under;
     const float height = plane.height(p);
-    if (!(std::abs(height) <= reach)) return;
-    const TriangleWeights under = plane.under(p);
-    if (!under.inside()) {
-      const glm::vec3 apart = p - plane.at(plane.nearest(under));
-      if (!(glm::dot(apart, apart) <= reach * reach)) return;
-    }
+    const float reach = std::max(job_.contact_distance, -clearance) + job_.margin;
+    if (!over(plane, p, height, reach, under)) return;
     const std::uint32_t* corners = triangles.corners(t);
     if (vertices.inverse_mass(v) + triangles.inverse_mass(corners[0]) + triangles.inverse_mass(corners[1]) +
             triangles.inverse_mass(corners[2]) <= 0.0f) {
       return;
     }
-    SurfacePair pair;
-    pair.vertex = v;
-    pair.triangle = t;
-    pair.of_second = of_second ? 1 : 0;
     const auto known = std::lower_bound(pairs_.last.begin(), pairs_.last.end(), pair, comes_before);
     if (known != pairs_.last.end() && !comes_before(pair, *known)) {
+      if (touches(*known)) return;  // kept already
       pair = *known;
     } else {
       if (!meet(clearance, pair)) return;
@@ -207,6 +240,22 @@ class Search {
       pair.b3 = under.b3;
       pair.side = height >= 0.0f || pair.allowed < 0.0f ? 1 : -1;
     }
+    if (pair.side < 0 && !itself_) return;  // behind it, but before another
+    if (static_cast<float>(pair.side) * height <= pair.allowed + job_.margin) add(pair);
+  }
+
+  // Above or below the triangle, or so near beside it that it may be there before the step is over. (Further beside
+  // it some neighbour is nearer.)
+  bool over(const TrianglePlane& plane, const glm::vec3& p, float height, float reach, TriangleWeights& under) const {
+    if (!(std::abs(height) <= reach)) return false;
+    under = plane.under(p);
+    if (under.inside()) return true;
+    const glm::vec3 beside = plane.at(under) - plane.at(plane.nearest(under));
+    const float square = glm::dot(beside, beside), most = 0.5f * job_.margin + kBeside * job_.contact_distance;
+    return square <= most * most && square + height * height <= reach * reach;
+  }
+
+  void add(const SurfacePair& pair) {
     if (pairs_.pairs.size() < pairs_.capacity) {
       pairs_.pairs.push_back(pair);
     } else {
@@ -218,7 +267,8 @@ class Search {
   bool meet(float clearance, SurfacePair& pair) const {
     pair.allowed = job_.contact_distance;
     const bool deep = !itself_ && clearance < 0.0f;
-    if (!itself_) pair.allowed = std::min(pair.allowed, deep ? clearance - kRounding : std::max(clearance - kRounding, 0.0f));
+    if (deep) pair.allowed = clearance - kRounding;
+    if (!deep && clearance < job_.contact_distance) pair.allowed = std::max(clearance - kRounding, 0.0f);
     if (!itself_ && !deep) return true;
     const SurfaceAsset& of = pair.of_second != 0 ? *second_.asset : *job_.first.asset;
     const SurfaceAsset& against = pair.of_second != 0 ? *job_.first.asset : *second_.asset;
@@ -234,7 +284,8 @@ class Search {
       return true;
     }
     const float distance = glm::length(p - plane.at(plane.nearest(plane.under(p))));
-    const float facing = glm::dot(job_.first.tree->rest_normals[pair.vertex], plane.normal);
+    const float facing =
+        least_dot(load_range(job_.first.tree->rest_normals[pair.vertex]), point_range(plane.normal));
     if (distance < kNeighbourhood * job_.contact_distance && facing > kFacesAtRest) return false;
     pair.allowed = std::min(pair.allowed, kThinnest * distance);
     return true;
@@ -259,7 +310,7 @@ void lay_out_pairs(std::size_t capacity, SurfacePairs& pairs) {
   pairs.last.reserve(capacity);
 }
 
-std::size_t usual_pair_capacity(std::size_t vertex_count) { return 1024 + 4 * vertex_count; }
+std::size_t usual_pair_capacity(std::size_t vertex_count) { return 1024 + 8 * vertex_count; }
 
 void find_pairs(const PairsJob& job, SurfacePairs& pairs) {
   assert(job.contact_distance > 0.0f && job.first.asset != nullptr);
