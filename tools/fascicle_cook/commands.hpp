@@ -30,5 +30,7 @@ void add_counts(CLI::App& program, Command& chosen);
 void add_slices(CLI::App& program, Command& chosen);
 // collide CHARACTER: a character played and its muscles' penetration measured.
 void add_collide(CLI::App& program, Command& chosen);
+// surface SCENE: a scene played and its surface muscles' shapes measured and checked.
+void add_surface(CLI::App& program, Command& chosen);
 
 }  // namespace fascicle::cook

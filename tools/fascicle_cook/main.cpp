@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   cook::add_slices(program, chosen);
 #ifdef FASCICLE_COOK_PLAYS
   cook::add_collide(program, chosen);
+  cook::add_surface(program, chosen);
 #endif
   try {
     program.parse(argc, argv);

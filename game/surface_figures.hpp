@@ -1,0 +1,71 @@
+// How well the surface muscles of a running scene do in the step that was just made: shape and volume
+// (components/surface_muscle.hpp, SurfaceQuality), depth in bones and attachments by code of its own
+// (modules/muscle/measure/surface_depth.hpp), fibres. For reports and fascicle-cook: it takes tens of milliseconds a
+// muscle and step, and changes nothing in the simulation.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/ecs/entity.hpp"
+#include "game/report.hpp"
+#include "game/simulation.hpp"
+#include "modules/muscle/measure/surface_depth.hpp"
+
+namespace fascicle::muscle {
+struct SurfaceQuality;
+}
+
+namespace fascicle::game {
+
+struct SurfaceFigures {
+  ecs::Entity entity;
+  std::shared_ptr<const muscle::SurfaceAsset> asset;
+  const muscle::SurfaceQuality* quality = nullptr;  // of this step, until the next
+  muscle::SurfaceDepths depths;
+  std::vector<double> attachment_errors;            // m, by attachment
+  double attachment_error = 0.0;                    // m, the worst of these
+  std::vector<double> fibre_ratios;                 // length to rest, by fibre; empty: it has none
+  double fibre_ratio_mean = 1.0;
+  std::uint64_t fallbacks = 0;                      // so far
+};
+
+class SurfaceMeters {
+ public:
+  // Gives surface muscles a SurfaceQuality, so that their angles are followed from the next step on. Where nobody did,
+  // `measure` does.
+  void start(Simulation& simulation);
+
+  // A muscle each, in the order of their spawning. Bones are prepared when a character is first seen.
+  const std::vector<SurfaceFigures>& measure(Simulation& simulation);
+
+ private:
+  struct Character {
+    std::shared_ptr<const muscle::CharacterAsset> asset;
+    std::shared_ptr<const muscle::BoneSolids> bones;
+  };
+  struct Meter {
+    std::shared_ptr<const muscle::SurfaceAsset> asset;
+    std::shared_ptr<const muscle::CharacterAsset> character;
+    muscle::SurfaceDepthMeter meter;
+  };
+
+  Meter& meter_of(const std::shared_ptr<const muscle::CharacterAsset>& character,
+                  const std::shared_ptr<const muscle::SurfaceAsset>& asset);
+
+  std::deque<Character> characters_;
+  std::deque<Meter> meters_;
+  std::vector<SurfaceFigures> figures_;
+};
+
+// Into a run's report, where the scene has surface muscles. Of several, each metric is that of the muscle that does
+// worst by it: the ratios furthest from 1, else the largest.
+//   surface.volume_ratio, edge_ratio_mean, edge_ratio_max, edge_ratio_abs_mean (mean |ratio - 1|),
+//   dihedral_change_mean_rad, bone_depth_max_mm (triangles at attached vertices and their neighbours left out),
+//   rest_distance_max_mm, attachment_error_max_mm, fibre_length_ratio_mean (where there are fibres), turned_edges
+//   (triangles that have swung through their neighbours) and fallbacks.
+void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& report);
+
+}  // namespace fascicle::game

@@ -1,0 +1,136 @@
+#include "tools/fascicle_cook/surface_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace fascicle::cook {
+namespace {
+
+using Figure = std::function<double(const SurfaceStepFigures&)>;
+
+constexpr std::uint64_t kFlexed = 100, kRested = 300;  // steps
+
+class Checker {
+ public:
+  explicit Checker(const SurfaceMuscleRun& run) : run_(run) {
+    for (std::size_t i = 0; i < run.steps.size() && through_ == 0; ++i) {
+      if (!(run.steps[i].bone_depth_max <= kThroughBone)) through_ = i + 1;
+    }
+  }
+
+  // Of the figure's largest value over all steps. `of_shape`: it says nothing of a muscle that went through bone.
+  void at_every_step(const std::string& what, double limit, const char* unit, const Figure& figure,
+                     bool of_shape = true) {
+    SurfaceCheck check = make(what + " at every step", limit, unit);
+    check.reached = !run_.steps.empty();
+    check.found = std::numeric_limits<double>::lowest();
+    for (std::size_t i = 0; i < run_.steps.size(); ++i) {
+      const double found = figure(run_.steps[i]);
+      if (found <= check.found) continue;
+      check.found = found;
+      check.step = i + 1;
+      if (!std::isfinite(found)) break;
+    }
+    decide(std::move(check), limit, of_shape ? run_.steps.size() : 0);
+  }
+
+  void at_step(std::uint64_t step, const std::string& what, double limit, const char* unit, const Figure& figure) {
+    SurfaceCheck check = make(fmt::format("{} at step {}", what, step), limit, unit);
+    check.reached = run_.steps.size() >= step;
+    check.step = step;
+    if (check.reached) check.found = figure(run_.steps[step - 1]);
+    decide(std::move(check), limit, step);
+  }
+
+  void attached_vertices(std::size_t count) {
+    SurfaceCheck check;
+    check.what = "vertices attached at the insertion";
+    check.limit = fmt::format("{}", count);
+    check.found = static_cast<double>(run_.attached_at_insertion);
+    check.passed = run_.attached_at_insertion == count;
+    checks_.push_back(std::move(check));
+  }
+
+  std::vector<SurfaceCheck> finish() { return std::move(checks_); }
+
+ private:
+  static SurfaceCheck make(const std::string& what, double limit, const char* unit) {
+    SurfaceCheck check;
+    check.what = what;
+    check.limit = fmt::format("<= {}{}", limit, unit);
+    return check;
+  }
+
+  // `last`: the step up to which it must not have gone through a bone.
+  void decide(SurfaceCheck check, double limit, std::uint64_t last) {
+    check.passed = check.reached && check.found <= limit;
+    if (check.passed && through_ != 0 && through_ <= last) {
+      check.passed = false;
+      check.why = fmt::format("carried through a bone at step {}", through_);
+    }
+    checks_.push_back(std::move(check));
+  }
+
+  const SurfaceMuscleRun& run_;
+  std::uint64_t through_ = 0;  // the first step at which it was deep in a bone; 0: none
+  std::vector<SurfaceCheck> checks_;
+};
+
+double off_one(double ratio) { return std::abs(ratio - 1.0); }
+
+void check_fibres(Checker& checker, const SurfaceMuscleRun& run) {
+  if (run.fibre_rest.empty()) return;
+  checker.at_step(kRested, "worst fibre |length ratio - 1|", 0.005, "", [](const SurfaceStepFigures& s) {
+    return std::max(off_one(s.fibre_min), off_one(s.fibre_max));
+  });
+}
+
+}  // namespace
+
+std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceMuscleRun& run) {
+  const auto is = [&](const char* name) { return scene.find(name) != std::string::npos; };
+  const auto mean = [](const SurfaceStepFigures& s) { return s.edge_abs_mean; };
+  const auto most = [](const SurfaceStepFigures& s) { return s.edge_max; };
+  const auto bent = [](const SurfaceStepFigures& s) { return s.dihedral_mean; };
+  const auto turned = [](const SurfaceStepFigures& s) { return s.turned; };
+  const auto volume = [](const SurfaceStepFigures& s) { return off_one(s.volume_ratio); };
+  Checker checker(run);
+  checker.at_every_step("deepest point in a bone", 0.5, " mm", [](const auto& s) { return s.bone_depth_max; }, false);
+  if (!run.asset->attached.empty()) {
+    checker.at_every_step("attachment error", 0.1, " mm", [](const auto& s) { return s.attachment_error_max; });
+  }
+  if (is("box")) {
+    // The gap leaves no room for the box's volume.
+    checker.at_step(kRested, "|volume ratio - 1|", 0.005, "", volume);
+    checker.at_step(kRested, "|mean edge ratio - 1|", 0.005, "", [](const auto& s) { return off_one(s.edge_mean); });
+    checker.at_step(kRested, "largest edge ratio", 1.3, "", most);
+    checker.at_step(kRested, "mean dihedral change", 0.01, " rad", bent);
+    check_fibres(checker, run);
+    return checker.finish();
+  }
+  checker.at_every_step("|volume ratio - 1|", 0.005, "", volume);
+  if (is("gluteus")) {
+    checker.attached_vertices(269);
+    checker.at_step(kFlexed, "largest edge ratio", 3.0, "", most);
+    checker.at_step(kFlexed, "edges turned inside out", 0.0, "", turned);
+    checker.at_step(kRested, "mean |edge ratio - 1|", 0.01, "", mean);
+    checker.at_step(kRested, "largest edge ratio", 1.5, "", most);
+    checker.at_step(kRested, "mean dihedral change", 0.02, " rad", bent);
+  }
+  if (is("iliacus")) {
+    checker.attached_vertices(267);
+    checker.at_step(kRested, "furthest vertex from rest", 2.0, " mm", [](const auto& s) { return s.rest_distance_max; });
+  }
+  check_fibres(checker, run);
+  return checker.finish();
+}
+
+bool all_passed(const std::vector<SurfaceCheck>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const SurfaceCheck& check) { return check.passed; });
+}
+
+}  // namespace fascicle::cook

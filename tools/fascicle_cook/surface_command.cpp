@@ -1,0 +1,104 @@
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "engine/content/file_text.hpp"
+#include "modules/muscle/content/find_content.hpp"
+#include "tools/fascicle_cook/commands.hpp"
+#include "tools/fascicle_cook/find_character.hpp"
+#include "tools/fascicle_cook/surface_checks.hpp"
+#include "tools/fascicle_cook/surface_plots.hpp"
+#include "tools/fascicle_cook/surface_report.hpp"
+#include "tools/fascicle_cook/surface_run.hpp"
+
+namespace fascicle::cook {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string scene, csv, plots, solver = "on";
+  std::vector<std::string> without;
+  std::uint64_t frames = 0;
+  int threads = 1;
+};
+
+SurfaceRunOptions run_options(const Options& options) {
+  SurfaceRunOptions run{.frames = options.frames, .workers = options.threads};
+  run.solver = options.solver != "off";
+  for (const std::string& part : options.without) {
+    if (part == "edges") run.edges = false;
+    if (part == "angles") run.angles = false;
+    if (part == "volume") run.volume = false;
+    if (part == "bones") run.bones = false;
+  }
+  return run;
+}
+
+bool write(const fs::path& file, const std::string& text) {
+  const Diagnostics written = write_text_atomically(file, text);
+  print_diagnostics(written);
+  return written.ok();
+}
+
+bool write_plots(const SurfaceRun& run, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  bool written = true;
+  for (const SurfaceMuscleRun& muscle : run.muscles) {
+    for (const SurfacePlot& plot : surface_plots(run, muscle)) {
+      written &= write(folder / fmt::format("{}-{}.svg", muscle.asset->name, plot.what), plot.svg);
+    }
+  }
+  return written;
+}
+
+int surface(const Options& options) {
+  const auto scene = muscle::load_scene(muscle::find_scene(options.scene, muscle::find_content_folder()));
+  print_diagnostics(scene.diagnostics());
+  if (!scene) return kErrors;
+  const SurfaceRun run = run_surfaces(*scene, run_options(options));
+  if (run.muscles.empty()) {
+    print_diagnostics({.errors = {{options.scene, 0, 0, {}, "no character of the scene has a surface muscle",
+                                   "name a scene that has one, such as 'hip-gluteus'"}},
+                       .warnings = {}});
+    return kErrors;
+  }
+  bool passed = true;
+  for (const SurfaceMuscleRun& muscle : run.muscles) {
+    const std::vector<SurfaceCheck> checks = check_surface(run.scene, muscle);
+    passed &= all_passed(checks);
+    fmt::print("{}\n{}\n{}\n", surface_configuration(run, muscle), surface_table(muscle), surface_checks_table(checks));
+  }
+  bool written = true;
+  if (!options.csv.empty()) written &= write(options.csv, surface_csv(run));
+  if (!options.plots.empty()) written &= write_plots(run, options.plots);
+  return passed && written ? kFine : kErrors;
+}
+
+}  // namespace
+
+void add_surface(CLI::App& program, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "surface", "Play a scene and measure its surface muscles: volume, edges, angles, fibres, depth in bones");
+  command->add_option("SCENE", options->scene, "A scene's name or file")->required();
+  command->add_option("--frames", options->frames, "Steps (the scene's)")->check(CLI::Range(1, 1000000));
+  command->add_option("--csv", options->csv, "Write the figures of every step to this file");
+  command->add_option("--plots", options->plots, "Write plots over the steps as SVG to this folder");
+  command->add_option("--solver", options->solver, "off: muscles are only carried by their bones")
+      ->check(CLI::IsMember({"on", "off"}));
+  command->add_option("--without", options->without, "Switch parts of the solver off: edges, angles, volume, bones")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"edges", "angles", "volume", "bones"}));
+  command->add_option("--threads", options->threads, "Workers (1; 0: one for each core)")->check(CLI::Range(0, 256));
+  command->footer("Exit status 1, too, where a check fails.");
+  command->callback([options, &chosen] { chosen = [options] { return surface(*options); }; });
+}
+
+}  // namespace fascicle::cook

@@ -1,0 +1,84 @@
+#include "tools/fascicle_cook/surface_plots.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "tools/fascicle_cook/svg_plot.hpp"
+
+namespace fascicle::cook {
+namespace {
+
+constexpr const char* kBlue = "#2a6fbb";
+constexpr const char* kOrange = "#d9661f";
+constexpr const char* kGrey = "#777777";
+
+std::vector<double> values_of(const SurfaceMuscleRun& muscle, double SurfaceStepFigures::* member) {
+  std::vector<double> values;
+  for (const SurfaceStepFigures& step : muscle.steps) values.push_back(step.*member);
+  return values;
+}
+
+ChartLine line_of(const SurfaceMuscleRun& muscle, const char* name, const char* colour,
+                  double SurfaceStepFigures::* member) {
+  return {name, colour, 1.8, values_of(muscle, member)};
+}
+
+// Colours round the wheel, so that neighbouring fibres can be told from each other.
+std::string fibre_colour(std::size_t fibre) {
+  constexpr std::array kColours = {"#2a6fbb", "#d9661f", "#3a9a4b", "#8a5fb4", "#b8443f", "#5b7a99", "#c29a1d", "#4aa3a2"};
+  return kColours[fibre % kColours.size()];
+}
+
+Chart fibre_chart(const SurfaceMuscleRun& muscle) {
+  Chart chart{.y_label = "fibre length (mm)", .lines = {}, .band = {}, .least_range = 1.0};
+  for (std::size_t f = 0; f < muscle.fibre_ratios.size(); ++f) {
+    ChartLine line{"", fibre_colour(f), muscle.fibre_ratios.size() > 100 ? 0.4 : 1.0, {}};
+    for (const double ratio : muscle.fibre_ratios[f]) line.values.push_back(ratio * muscle.fibre_rest[f]);
+    chart.lines.push_back(std::move(line));
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::vector<SurfacePlot> surface_plots(const SurfaceRun& run, const SurfaceMuscleRun& muscle) {
+  using F = SurfaceStepFigures;
+  const auto& s = muscle.settings;
+  const std::string subtitle =
+      fmt::format("{}; {} substeps of 1/{:g} s{}", run.scene, s.substeps,
+                  static_cast<double>(run.step_hz) * s.substeps, run.options.solver ? "" : "; solver off");
+  std::vector<SurfacePlot> plots;
+  const auto add = [&](const char* what, const std::string& title, const std::vector<Chart>& charts) {
+    plots.push_back({what, draw_charts(muscle.asset->name + ": " + title, subtitle, charts)});
+  };
+  add("volume", "volume",
+      {{.y_label = "volume / volume at rest", .lines = {line_of(muscle, "", kBlue, &F::volume_ratio)}, .band = {},
+        .least_range = 0.02}});
+  add("edges", "edge lengths",
+      {{.y_label = "edge / edge at rest",
+        .lines = {line_of(muscle, "mean", kBlue, &F::edge_mean), line_of(muscle, "median", kOrange, &F::edge_p50)},
+        .band = ChartBand{"5 to 95 % of the edges", kBlue, values_of(muscle, &F::edge_p5),
+                          values_of(muscle, &F::edge_p95)},
+        .least_range = 0.02},
+       {.y_label = "edge / edge at rest",
+        .lines = {line_of(muscle, "largest", kOrange, &F::edge_max), line_of(muscle, "smallest", kGrey, &F::edge_min)},
+        .band = {}, .least_range = 0.1}});
+  add("dihedral", "dihedral angles",
+      {{.y_label = "mean |angle - angle at rest| (rad)", .lines = {line_of(muscle, "", kBlue, &F::dihedral_mean)},
+        .band = {}, .least_range = 0.01}});
+  add("bones", "bones and places",
+      {{.y_label = "mm",
+        .lines = {line_of(muscle, "deepest in a bone", kBlue, &F::bone_depth_max),
+                  line_of(muscle, "attachment error", kOrange, &F::attachment_error_max)},
+        .band = {}, .least_range = 0.1},
+       {.y_label = "mm", .lines = {line_of(muscle, "furthest vertex from its place at rest", kBlue,
+                                           &F::rest_distance_max)},
+        .band = {}, .least_range = 0.1}});
+  if (!muscle.fibre_ratios.empty()) {
+    add("fibres", fmt::format("{} fibres", muscle.fibre_ratios.size()), {fibre_chart(muscle)});
+  }
+  return plots;
+}
+
+}  // namespace fascicle::cook

@@ -1,0 +1,59 @@
+// A scene's surface muscles played through its animation and measured at every step (4.3): what `fascicle-cook surface`
+// prints, checks and plots.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modules/muscle/asset/surface/surface_asset.hpp"
+#include "modules/muscle/content/scene_asset.hpp"
+
+namespace fascicle::cook {
+
+struct SurfaceRunOptions {
+  std::uint64_t frames = 0;  // steps; 0: the scene's
+  int workers = 1;
+  // Switched off, muscles are only carried by their bones. Or one part of it alone is switched off.
+  bool solver = true;
+  bool edges = true, angles = true, volume = true, bones = true;
+};
+
+// One step of one muscle. Lengths in mm, angles in rad; all are doubles so that tables may list them by member.
+struct SurfaceStepFigures {
+  double volume_ratio = 1.0;
+  double edge_mean = 1.0, edge_abs_mean = 0.0, edge_min = 1.0, edge_max = 1.0;
+  double edge_p5 = 1.0, edge_p50 = 1.0, edge_p95 = 1.0;
+  double dihedral_mean = 0.0, dihedral_max = 0.0, angle_max = 0.0;
+  double folded = 0.0, turned = 0.0;         // edges (SurfaceQuality)
+  double rest_distance_max = 0.0;
+  double attachment_error_max = 0.0;
+  double bone_depth_max = 0.0;               // triangles at attached vertices and their neighbours left out
+  double bone_depth_beside = 0.0;            // those that touch neighbours
+  double fibre_mean = 1.0, fibre_min = 1.0, fibre_max = 1.0;  // length to rest
+  double fallbacks = 0.0;                    // so far
+  double step_ms = 0.0;                      // of the whole simulation
+};
+
+struct SurfaceMuscleRun {
+  std::shared_ptr<const muscle::SurfaceAsset> asset;
+  muscle::SurfaceSettings settings;                // that it ran with
+  std::vector<std::string> bones;                  // by attachment: its bone's name
+  std::size_t attached_at_insertion = 0;           // vertices
+  std::vector<SurfaceStepFigures> steps;           // from step 1
+  std::vector<double> fibre_rest;                  // mm, by fibre; empty: it has none
+  std::vector<std::vector<double>> fibre_ratios;   // by fibre, by step: its length to rest
+};
+
+struct SurfaceRun {
+  std::string scene, simd;
+  SurfaceRunOptions options;
+  float step_hz = 0.0f;
+  std::vector<SurfaceMuscleRun> muscles;
+};
+
+// A scene without surface muscles gives an empty list.
+SurfaceRun run_surfaces(const std::shared_ptr<const muscle::SceneAsset>& scene, const SurfaceRunOptions& options);
+
+}  // namespace fascicle::cook
