@@ -34,6 +34,7 @@ RunRecorder::RunRecorder(const GameOptions& options, Simulation& simulation, std
   stats_.set_note("simd", std::string(to_string(simulation.simd())));
   stats_.set_note("characters", std::to_string(simulation.characters().size()));
   announce_items(simulation);
+  if (!options.report_file.empty()) surfaces_.start(simulation);
 }
 
 void RunRecorder::announce_items(Simulation& simulation) {
@@ -61,6 +62,7 @@ void RunRecorder::record_step(Simulation& simulation) {
     simulation.record_metrics(report_);
     const std::int64_t start = monotonic_ns();
     penetration_.record(simulation, report_);
+    record_surface_figures(surfaces_.measure(simulation), report_);
     stats_.record_span("report", monotonic_ns() - start);
   }
   if (options_.detail) simulation.world().resource<CostLedger>().end_frame(stats_.warming_up());

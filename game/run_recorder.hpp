@@ -14,6 +14,7 @@
 #include "game/penetration_report.hpp"
 #include "game/report.hpp"
 #include "game/simulation.hpp"
+#include "game/surface_figures.hpp"
 
 namespace fascicle::game {
 
@@ -48,6 +49,7 @@ class RunRecorder {
   std::optional<Trace> trace_;
   Report report_;
   PenetrationReport penetration_;
+  SurfaceMeters surfaces_;
   std::int64_t frame_start_ns_ = 0;
   std::uint64_t frames_ = 0;
   std::uint64_t gpu_frame_ = 0;  // newest GPU measurement taken into the statistics
