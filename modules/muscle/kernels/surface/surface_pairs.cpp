@@ -165,21 +165,21 @@ class Search {
     for (std::uint32_t i = 0; i < of.own; ++i) {
       const std::uint32_t v = vertex_tree.vertices[of.first_vertex + i];
       if (!clearances.empty() && !has_side(clearances[v])) continue;
-      if (itself_ && !may_face_any(v, node)) continue;
       const glm::vec3 p = vertices.at(v);
       if (!near(point_range(p), bounds, reach_)) continue;
+      if (itself_ && !may_face_any(v, node)) continue;
       numbers[count] = v;
       places[count++] = p;
     }
+    TrianglePlane plane;
     for (std::uint32_t i = 0; count > 0 && i < against.count; ++i) {
       const std::uint32_t t = triangle_tree.triangles[against.first + i];
       const std::uint32_t* corners = triangles.corners(t);
       const glm::vec3 corner = triangles.at(corners[0]);
-      TrianglePlane plane;
       bool placed = false;
       for (std::size_t k = 0; k < count; ++k) {
         const std::uint32_t v = numbers[k];
-        if (itself_ && (!faces(v, t) || !may_reach(places[k] - corner, t) || is_corner(v, corners))) continue;
+        if (itself_ && (!may_reach(places[k] - corner, t) || !faces(v, t) || is_corner(v, corners))) continue;
         if (!placed && !plane.set(corner, triangles.at(corners[1]), triangles.at(corners[2]))) break;
         placed = true;
         const float clearance = clearances.empty() ? job_.contact_distance : clearances[v];
