@@ -116,6 +116,12 @@ void finish_motion(Motion& motion, const JointModel& model) {
   fill_cycle(motion);
 }
 
+void loop_whole_record(Motion& motion) {
+  motion.cycle = {motion.times.front(), motion.times.back()};
+  fill_cycle(motion);
+  std::ranges::fill(motion.cycle_change, 0.0);
+}
+
 void sample_motion(const Motion& motion, double time, std::span<double> values) {
   const std::size_t m = motion.coordinates;
   assert(values.size() == m);

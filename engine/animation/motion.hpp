@@ -39,6 +39,8 @@ struct Motion {
 // Fills in slopes, cycle and what follows from it.
 void finish_motion(Motion& motion, const JointModel& model);
 
+// Lets a finished motion repeat all of its record, every value as recorded: where its ends differ it jumps.
+void loop_whole_record(Motion& motion);
 
 // The record at `time` (s, on its own axis; held at its ends): a cubic Hermite curve with continuous velocity.
 void sample_motion(const Motion& motion, double time, std::span<double> values);

@@ -11,21 +11,6 @@
 namespace fascicle::muscle {
 namespace {
 
-// All meshes of a bone as one, in the rest space.
-TriangleMesh join_bone_meshes(const CharacterAsset& asset, std::int32_t bone) {
-  TriangleMesh joined;
-  for (const BoneMesh& part : asset.bone_meshes) {
-    if (part.bone != bone) continue;
-    const glm::mat4 to_rest = asset.skeleton->rest_world[static_cast<std::size_t>(bone)] * part.transform;
-    const auto first = static_cast<std::uint32_t>(joined.positions.size());
-    for (const glm::vec3& position : part.mesh->positions) {
-      joined.positions.push_back(glm::vec3(to_rest * glm::vec4(position, 1.0f)));
-    }
-    for (const std::uint32_t index : part.mesh->indices) joined.indices.push_back(first + index);
-  }
-  return joined;
-}
-
 std::vector<std::uint32_t> triangles_where(const TriangleMesh& mesh,
                                            const std::function<bool(const glm::vec3&)>& inside) {
   std::vector<char> marked(mesh.positions.size());
@@ -44,7 +29,7 @@ std::vector<std::uint32_t> find_area(const AreaEntry& area, const AttachmentDesc
   std::vector<std::uint32_t> triangles;
   if (area.of_bone) {
     const std::int32_t bone = area.bone.given() ? asset.skeleton->find(area.bone.text) : attachment.bone;
-    const ClosestPoints surface(join_bone_meshes(asset, bone));
+    const ClosestPoints surface(bone_mesh_at_rest(asset, bone));
     if (surface.empty()) {
       area.node.warning(diagnostics,
                         fmt::format("the bone '{}' has no mesh to measure the area's distance from",
@@ -66,6 +51,20 @@ std::vector<std::uint32_t> find_area(const AreaEntry& area, const AttachmentDesc
 }
 
 }  // namespace
+
+TriangleMesh bone_mesh_at_rest(const CharacterAsset& asset, std::int32_t bone) {
+  TriangleMesh joined;
+  for (const BoneMesh& part : asset.bone_meshes) {
+    if (part.bone != bone) continue;
+    const glm::mat4 to_rest = asset.skeleton->rest_world[static_cast<std::size_t>(bone)] * part.transform;
+    const auto first = static_cast<std::uint32_t>(joined.positions.size());
+    for (const glm::vec3& position : part.mesh->positions) {
+      joined.positions.push_back(glm::vec3(to_rest * glm::vec4(position, 1.0f)));
+    }
+    for (const std::uint32_t index : part.mesh->indices) joined.indices.push_back(first + index);
+  }
+  return joined;
+}
 
 std::array<std::vector<std::uint32_t>, 2> find_attachment_areas(const ResolvedMuscle& muscle, const TriangleMesh& mesh,
                                                                 const CharacterAsset& asset,

@@ -19,6 +19,7 @@
 #include "engine/content/result.hpp"
 #include "modules/muscle/asset/collision/collision_description.hpp"
 #include "modules/muscle/asset/muscle_description.hpp"
+#include "modules/muscle/asset/surface/surface_description.hpp"
 #include "modules/muscle/content/fit_store.hpp"
 
 namespace fascicle {
@@ -35,6 +36,7 @@ class BoneField;
 struct CollisionAsset;
 struct MuscleAsset;
 struct MuscleLevels;
+struct SurfaceAsset;
 
 // What becomes of muscles that have an anatomical mesh.
 enum class FitMode {
@@ -79,6 +81,12 @@ struct CharacterAsset {
   std::vector<MuscleFits> fits;                        // by description; empty where none was asked for
   // Anatomical meshes by the muscle's name, in the character's rest space (m). Heads of one mesh share the object.
   std::map<std::string, std::shared_ptr<const TriangleMesh>> muscle_meshes;
+  // Muscles that are deforming meshes, beside those above: in file order, a mirror image after its original.
+  std::vector<SurfaceMuscleDescription> surface_descriptions;
+  std::vector<std::shared_ptr<const SurfaceAsset>> surface_muscles;  // by surface description
+  // By description: 1 where a surface muscle that it drives is shown in its place, so that its own surface is not
+  // drawn. It is posed, solved and measured all the same. Empty where there is no surface muscle.
+  std::vector<std::uint8_t> hidden_muscles;
   MirrorMap mirror;
   CollisionDescription collision;                      // enabled and without tags where the file names none
   // By bone of the skeleton: how far a point is from it; null where a bone has no mesh.

@@ -4,6 +4,7 @@
 
 #include "engine/content/length_unit.hpp"
 #include "modules/muscle/asset/muscle_limits.hpp"
+#include "modules/muscle/content/surface_limits.hpp"
 
 namespace fascicle::muscle {
 
@@ -42,6 +43,9 @@ BoneMeshEntry read_bone_mesh(const JsonNode& node, const ReadContext& context) {
   entry.bone = read_name(object, "bone", true);
   entry.file = read_name(object, "file", true);
   read_placement(object, entry.transform);
+  float unit = 1.0f;  // m
+  read_unit(object, unit);
+  entry.transform.scale *= unit;
   std::size_t space = 0;
   if (object.optional_choice("space", space, {"bone", "character"})) entry.in_character_space = space == 1;
   finish_object(object, "bone_mesh", context);
@@ -148,6 +152,9 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
   file.muscles_from = read_name(object, "muscles_from", false);
   for (const JsonNode node : object.optional_array("muscles", 0, 100000)) {
     file.muscles.push_back(read_muscle_entry(node, context));
+  }
+  for (const JsonNode node : object.optional_array("surface_muscles", 0, kMostSurfaceMuscles)) {
+    file.surface_muscles.push_back(read_surface_muscle_entry(node, context));
   }
   finish_object(object, "character", context);
   return file;

@@ -15,6 +15,7 @@
 #include "engine/animation/skeleton.hpp"
 #include "engine/content/json_reader.hpp"
 #include "modules/muscle/asset/muscle_description.hpp"
+#include "modules/muscle/asset/surface/surface_description.hpp"
 #include "modules/muscle/content/field_log.hpp"
 
 namespace fascicle::muscle {
@@ -73,6 +74,60 @@ struct MuscleEntry {
   bool sound = false;                        // read without an error
 };
 
+// Which vertices of a surface muscle's mesh follow a bone.
+struct SurfaceAttachmentEntry {
+  enum class Choice : std::uint8_t {
+    kNone,      // wrong or missing
+    kWithin,    // no further than `distance` from the bone's meshes
+    kNear,      // no further than `distance` from `point`
+    kBeyond,    // normal . p > offset
+    kVertices,  // these
+  };
+  JsonNode node;
+  NameEntry bone;
+  bool origin = true;                   // else: insertion
+  Choice choice = Choice::kNone;
+  float distance = 0.0f;                // m
+  glm::vec3 point{0.0f};                // m, in the file's attachment space
+  glm::dvec3 normal{0.0, 0.0, 1.0};     // unit
+  double offset = 0.0;                  // along the normal, in the unit of the plane's space
+  bool plane_in_rest_space = false;     // m; else in the mesh file's own coordinates and unit
+  std::vector<std::uint32_t> vertices;  // of the mesh file
+};
+
+// Fibres of a surface muscle: polylines of a file, or one written out.
+struct FibresEntry {
+  JsonNode node;
+  NameEntry file;
+  std::vector<glm::vec3> points;
+  std::uint32_t head = 0;
+  float unit = 1.0f;      // m; of the numbers
+  bool own_unit = false;  // else the mesh's
+  Trs transform;          // scaled to metres, to the rest space
+};
+
+// A muscle that is a deforming mesh.
+struct SurfaceMuscleEntry {
+  JsonNode node;
+  NameEntry name;
+  bool mirror = false;
+  MeshEntry mesh;
+  std::uint32_t piece = 0;           // of the mesh's, from 1 by falling size; 0: it is the only one
+  JsonNode piece_node;
+  NameEntry frame;                   // bone; not given: the first origin's
+  std::vector<SurfaceAttachmentEntry> attachments;
+  std::vector<FibresEntry> fibres;
+  std::optional<FibreBundleSettings> inner_fibres;
+  JsonNode inner_fibres_node;
+  std::vector<NameEntry> bones;      // that it collides with
+  bool all_bones = true;             // all with a mesh; `bones` is empty
+  NameEntry driver;
+  bool hide_driver = true;
+  bool free = false;                 // it is attached to nothing on purpose
+  SurfaceSettings settings;
+  bool sound = false;                // read without an error
+};
+
 // How names and places pass to the other side: reflection in the plane `axis` = 0 of the character's rest space, and
 // pairs of name parts to exchange.
 struct MirrorRule {
@@ -113,6 +168,7 @@ struct CharacterFile {
   NameEntry collision;                    // the collision file
   NameEntry muscles_from;                 // another character file
   std::vector<MuscleEntry> muscles;
+  std::vector<SurfaceMuscleEntry> surface_muscles;
 };
 
 // Reads what it can and appends all errors. The document must outlive the answer.
@@ -120,6 +176,8 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
 
 // Parts of it, one object each.
 MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context);
+SurfaceMuscleEntry read_surface_muscle_entry(const JsonNode& node, const ReadContext& context);
+MeshEntry read_mesh_entry(const JsonNode& node, const ReadContext& context);
 NameEntry read_name(JsonObject& object, std::string_view field, bool required);
 // "level" of a character, or the same fields of a muscle.
 void read_level(JsonObject& object, LevelEntry& level);

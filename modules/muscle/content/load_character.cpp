@@ -204,6 +204,13 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
     load_muscle_meshes(chain.files()[i]->content, chain.path(i).parent_path(), resolved, sources, *asset, diagnostics);
   }
   if (asset->skeleton) check_muscles(resolved, *asset, diagnostics);
+  if (asset->skeleton) {
+    MuscleNames surface_names;
+    for (std::size_t i = chain.files().size(); i-- > 0;) {
+      load_surface_muscles(chain.files()[i]->content, chain.path(i).parent_path(), sources, surface_names, *asset,
+                           diagnostics);
+    }
+  }
   const MirrorRule& mirror = chain.mirror();
   if (asset->skeleton) asset->mirror = make_mirror_map(mirror, *asset);
   ResolvedCollision collision = load_collision(content, base, mirror, names, sources, *asset, diagnostics);
@@ -215,7 +222,9 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
     if (asset->muscles) place_images(*asset->muscles, mirror.axis, collision);
   }
   asset->collision = std::move(collision.description);
-  if (options.bone_fields && asset->muscles) load_bone_fields(file, *asset, diagnostics);
+  if (diagnostics.ok()) build_surface_muscles(*asset, diagnostics);
+  const bool has_muscles = asset->muscles || !asset->surface_muscles.empty();
+  if (options.bone_fields && has_muscles) load_bone_fields(file, *asset, diagnostics);
   if (diagnostics.ok()) build_collision_levels(*asset);
   drop_repetitions(diagnostics);
   asset->files = sources.files();

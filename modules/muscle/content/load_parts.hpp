@@ -31,6 +31,14 @@ void load_muscle_meshes(const CharacterFile& file, const std::filesystem::path& 
                         std::span<const ResolvedMuscle> muscles, ContentSources& sources, CharacterAsset& asset,
                         Diagnostics& diagnostics);
 
+// Appends the surface muscles of one file to asset.surface_descriptions, a mirror image after its original;
+// asset.descriptions and bone_meshes are there. `names` are those of surface muscles so far and grows.
+void load_surface_muscles(const CharacterFile& file, const std::filesystem::path& base, ContentSources& sources,
+                          MuscleNames& names, CharacterAsset& asset, Diagnostics& diagnostics);
+
+// Fills asset.surface_muscles from their descriptions. asset.muscles is there, for those that are driven.
+void build_surface_muscles(CharacterAsset& asset, Diagnostics& diagnostics);
+
 // The other side of asset.descriptions and asset.skeleton.
 MirrorMap make_mirror_map(const MirrorRule& rule, const CharacterAsset& asset);
 

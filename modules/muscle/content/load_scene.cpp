@@ -77,6 +77,7 @@ void choose_motion(const SceneCharacterEntry& entry, const fs::path& base, Conte
     return;
   }
   Result<Motion> motion = read_motion(*path, *placed.character->joints);
+  if (motion && entry.whole_record) loop_whole_record(*motion);
   if (motion) placed.animation.motion = std::make_shared<const Motion>(std::move(*motion));
   diagnostics.append(std::move(motion.diagnostics()));
 }

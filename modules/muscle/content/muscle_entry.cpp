@@ -37,31 +37,6 @@ AreaEntry read_area(const JsonNode& node, const ReadContext& context) {
   return area;
 }
 
-MeshEntry read_mesh_entry(const JsonNode& node, const ReadContext& context) {
-  MeshEntry entry;
-  if (node.is_string()) {
-    if (!node.read(entry.name.text, context.diagnostics)) return entry;
-    if (entry.name.text.empty()) {
-      node.error(context.diagnostics, "'mesh' is empty", "give a name");
-      return entry;
-    }
-    entry.name.node = entry.node = node;
-    return entry;
-  }
-  if (!node.is_object()) {
-    node.error(context.diagnostics, "'mesh' is neither a name nor an object",
-               "name a mesh of \"muscle_meshes\", or give {\"file\": \"soleus.stl\", \"unit\": \"mm\"}");
-    return entry;
-  }
-  JsonObject object(node, context.diagnostics);
-  entry.file = read_name(object, "file", true);
-  read_unit(object, entry.unit);
-  read_placement(object, entry.transform);
-  finish_object(object, "mesh", context);
-  if (entry.file.given()) entry.node = node;
-  return entry;
-}
-
 AttachmentEntry read_attachment(const JsonNode& node, bool is_via, const ReadContext& context) {
   AttachmentEntry entry;
   entry.node = node;
@@ -147,6 +122,31 @@ void read_pennation(JsonObject& object, float& pennation) {
 }
 
 }  // namespace
+
+MeshEntry read_mesh_entry(const JsonNode& node, const ReadContext& context) {
+  MeshEntry entry;
+  if (node.is_string()) {
+    if (!node.read(entry.name.text, context.diagnostics)) return entry;
+    if (entry.name.text.empty()) {
+      node.error(context.diagnostics, "'mesh' is empty", "give a name");
+      return entry;
+    }
+    entry.name.node = entry.node = node;
+    return entry;
+  }
+  if (!node.is_object()) {
+    node.error(context.diagnostics, "'mesh' is neither a name nor an object",
+               "name a mesh of \"muscle_meshes\", or give {\"file\": \"soleus.stl\", \"unit\": \"mm\"}");
+    return entry;
+  }
+  JsonObject object(node, context.diagnostics);
+  entry.file = read_name(object, "file", true);
+  read_unit(object, entry.unit);
+  read_placement(object, entry.transform);
+  finish_object(object, "mesh", context);
+  if (entry.file.given()) entry.node = node;
+  return entry;
+}
 
 NameEntry read_name(JsonObject& object, std::string_view field, bool required) {
   NameEntry entry;

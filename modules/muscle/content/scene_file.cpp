@@ -19,6 +19,13 @@ void read_animation(const JsonNode& node, SceneCharacterEntry& entry, const Read
     entry.motion.node.error(context.diagnostics, "the animation names both a clip and a motion",
                             "give one: a clip of the character's glTF file, or a motion file for a joint skeleton");
   }
+  std::size_t loop = 0;
+  if (object.optional_choice("loop", loop, {"cycle", "record"})) entry.whole_record = loop == 1;
+  entry.loop = object.optional("loop");
+  if (entry.loop.exists() && entry.clip.given()) {
+    entry.loop.error(context.diagnostics, "'loop' says nothing of a clip, which is always played whole",
+                     "leave it out, or name a \"motion\"");
+  }
   finish_object(object, "animation", context);
 }
 

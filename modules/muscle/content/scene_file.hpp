@@ -17,6 +17,8 @@ struct SceneCharacterEntry {
   SceneCharacter values;  // placement and animation figures; what it names is looked up later
   NameEntry clip;
   NameEntry motion;
+  JsonNode loop;                 // how the motion repeats, where it was given
+  bool whole_record = false;     // else its best cycle
 };
 
 struct SceneFile {

@@ -42,7 +42,9 @@ FieldLog fields_of(const std::map<std::string, JsonNode>& schemas) {
 // A file with one object of each kind, all empty, so that the readers ask for everything.
 constexpr std::string_view kEmptyCharacter = R"({ "skeleton": {}, "skin": {}, "bone_meshes": [{}], "muscle_meshes": {},
   "mirror": {}, "level": {}, "fit": {}, "muscles": [{ "origin": { "area": {} }, "via": [{}], "insertion": {},
-  "profile": {}, "tendon": {}, "mesh": {} }] })";
+  "profile": {}, "tendon": {}, "mesh": {} }],
+  "surface_muscles": [{ "mesh": {}, "attachments": [{ "near": {} }, { "beyond": {} }], "fibres": [{}],
+  "inner_fibres": {}, "settings": {} }] })";
 constexpr std::string_view kEmptyCollision =
     R"({ "settings": {}, "transversals": [{ "first": {}, "second": {} }], "stay_out": [{}], "ignore": [{}] })";
 constexpr std::string_view kEmptyScene = R"({ "characters": [{ "animation": {} }], "camera": {} })";
@@ -55,7 +57,12 @@ const std::map<std::string, std::string> kKindOfPath = {
     {"/muscles/0/profile", "profile"}, {"/muscles/0/tendon", "tendon"}, {"/characters/0", "scene_character"},
     {"/characters/0/animation", "animation"}, {"/camera", "camera"}, {"/settings", "settings"}, {"/transversals/0", "transversal"},
     {"/transversals/0/first", "place"}, {"/transversals/0/second", "partner"}, {"/stay_out/0", "stay_out"},
-    {"/ignore/0", "ignore"}};
+    {"/ignore/0", "ignore"}, {"/surface_muscles/0", "surface_muscle"}, {"/surface_muscles/0/mesh", "mesh"},
+    {"/surface_muscles/0/attachments/0", "surface_attachment"},
+    {"/surface_muscles/0/attachments/1", "surface_attachment"},
+    {"/surface_muscles/0/attachments/0/near", "near"}, {"/surface_muscles/0/attachments/1/beyond", "plane"},
+    {"/surface_muscles/0/fibres/0", "fibres"}, {"/surface_muscles/0/inner_fibres", "inner_fibres"},
+    {"/surface_muscles/0/settings", "surface_settings"}};
 
 struct Known {
   FieldLog fields;
@@ -103,7 +110,8 @@ TEST(Schema, CharacterAndLoaderKnowTheSameFields) {
   const auto schemas = object_schemas(schema, "character");
   const Known known = ask_readers(kEmptyCharacter, "character");
   EXPECT_EQ(fields_of(schemas), known.fields);
-  EXPECT_EQ(required_of(schemas, {"skeleton", "origin", "insertion"}), known.required);
+  // "mesh" is required of a surface muscle only, and in the empty file.
+  EXPECT_EQ(required_of(schemas, {"skeleton", "origin", "insertion", "mesh"}), known.required);
 }
 
 TEST(Schema, SceneAndLoaderKnowTheSameFields) {
