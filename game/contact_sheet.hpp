@@ -1,5 +1,5 @@
-// A page of pictures of one run: frames from left to right, four sides from top to bottom, first with the skin and then
-// without. Authors open it to look for muscles that flip, twist, leave their bones or pierce them.
+// A page of pictures of one run: frames from left to right, sides from top to bottom, first with the skin, where there
+// is one, and then without. Authors open it to look for muscles that flip, twist, leave their bones or pierce them.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@ namespace fascicle::game {
 
 class ContactSheet {
  public:
-  // Takes `columns` frames, evenly spread over `frames`, from `sides` directions around the camera's target.
-  ContactSheet(OrbitCamera camera, std::uint64_t frames, int columns = 8, int sides = 4);
+  // Takes these frames (from 1, rising) from `sides` directions around the camera's target, each as `view` shows it;
+  // `with_skin`: all of it twice.
+  ContactSheet(const DrawView& view, std::vector<std::uint64_t> frames, int sides, bool with_skin);
 
   // True when frame `frame` (from 1) belongs on the sheet.
   bool wants(std::uint64_t frame) const;
@@ -25,12 +26,14 @@ class ContactSheet {
   Result<std::size_t> write(const std::filesystem::path& file) const;
 
  private:
-  OrbitCamera camera_;
-  std::uint64_t frames_;
-  int columns_;
+  DrawView view_;
+  std::vector<std::uint64_t> frames_;
   int sides_;
-  std::vector<std::vector<Image>> with_skin_;     // by side, then frame
-  std::vector<std::vector<Image>> without_skin_;
+  bool with_skin_;
+  std::vector<std::vector<Image>> rows_;  // by side with the skin, if it is wanted, then by side without
 };
+
+// `columns` frames evenly spread over a run of `frames`, its last one among them; all where there are fewer.
+std::vector<std::uint64_t> spread_frames(std::uint64_t frames, std::uint64_t columns = 8);
 
 }  // namespace fascicle::game

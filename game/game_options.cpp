@@ -36,8 +36,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   CLI::App app("Fascicle: muscles on a walking character. Without arguments: the walker, in a window.", "fascicle");
   app.footer(
       "Keys in a window: Space pauses, Period steps, R resets the camera, H hides the overlay. S B M A C T G switch\n"
-      "skin, bones, muscles, action lines, sections, tendons and ground; K shows contacts and tags. E adds a tag by two\n"
-      "clicks (Enter saves, Backspace forgets a click, Y who yields, W sweeps, O both sides). Escape ends.");
+      "skin, bones, muscles, action lines, sections, tendons and ground; F shows fibres, K contacts and tags. E adds a\n"
+      "tag by two clicks (Enter saves, Backspace forgets a click, Y who yields, W sweeps, O both sides). Escape ends.");
   app.add_option("--scene", options.scene, "A name in content/scenes (walker, gait2392, cesium-man) or a scene file");
   app.add_flag("--headless", options.headless, "No window: run, then print the time per system");
   app.add_option("--frames", options.frames, "Steps to run (headless: the scene's own length by default)")
@@ -58,9 +58,15 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "tens of milliseconds a character and frame");
   app.add_option("--screenshot", screenshot, "Write a PNG of the last frame, or of one: FILE[@FRAME]");
   app.add_option("--contact-sheet", options.contact_sheet_file,
-                 "Write a PNG with the cycle's frames from four sides, with and without skin");
+                 "Write a PNG with frames of the run from several sides, with and without skin");
+  app.add_option("--sheet-frames", options.sheet_frames, "The frames on the contact sheet, as in 1,50,100")
+      ->delimiter(',')
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000}));
+  app.add_option("--sheet-sides", options.sheet_sides, "From how many sides it shows them")->check(CLI::Range(1, 12));
   app.add_flag("--show-collision", options.show_collision,
                "Draw contacts, transversal tags and displaced centres, without the skin (in a window: K)");
+  app.add_flag("--show-fibres", options.show_fibres,
+               "Draw the fibres inside surface muscles, without the skin (in a window: F)");
   app.add_flag("--hash", options.hash, "Print a hash of the last frame's state");
   app.add_flag("--schedule", options.print_schedule, "Print the systems, their order and what they access, and stop");
   app.add_flag("--schedule-dot", options.print_dot, "The same as a graph for Graphviz");
@@ -103,6 +109,13 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     refuse("--screenshot and --contact-sheet need drawing; leave out --no-draw");
   }
   if (!options.draw && options.show_collision) refuse("--show-collision needs drawing; leave out --no-draw");
+  if (!options.draw && options.show_fibres) refuse("--show-fibres needs drawing; leave out --no-draw");
+  if (options.contact_sheet_file.empty() && app.count("--sheet-frames") + app.count("--sheet-sides") > 0) {
+    refuse("--sheet-frames and --sheet-sides are of a contact sheet; add --contact-sheet FILE");
+  }
+  std::sort(options.sheet_frames.begin(), options.sheet_frames.end());
+  options.sheet_frames.erase(std::unique(options.sheet_frames.begin(), options.sheet_frames.end()),
+                             options.sheet_frames.end());
   if (!options.draw && !options.headless) {
     refuse("--no-draw leaves nothing to show in a window; add --headless");
   }

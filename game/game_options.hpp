@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fascicle::game {
 
@@ -26,8 +27,11 @@ struct GameOptions {
   std::string trace_file;
   std::string report_file;
   std::optional<ScreenshotRequest> screenshot;
-  std::string contact_sheet_file;        // four sides by eight frames, with and without skin
+  std::string contact_sheet_file;        // pictures of frames from several sides, with and without skin
+  std::vector<std::uint64_t> sheet_frames;  // those on it, rising; empty: eight, spread over the run
+  int sheet_sides = 4;                   // it shows
   bool show_collision = false;           // contacts, tags and depths in the picture, and no skin over them
+  bool show_fibres = false;              // of surface muscles, which are translucent then
   bool detail = false;                   // statistics per character and muscle
   bool hash = false;
   bool print_schedule = false;

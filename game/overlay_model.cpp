@@ -1,8 +1,13 @@
 #include "game/overlay_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
+#include <fmt/format.h>
+
+#include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
@@ -10,6 +15,15 @@ namespace {
 
 constexpr std::array<const char*, 4> kLevelNames = {"at level 0", "at level 1", "at level 2", "at coarser levels"};
 constexpr float kSmoothing = 0.1f;  // weight of the newest step in a system's shown time
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr std::array<const char*, kOverlayValues> kColumnNames = {"length mm", "vol cm3",  "vol %",    "force N",
+                                                                  "contacts",  "deep mm", "vertices", "solve us"};
+
+OverlayItem make_item(std::string_view name) {
+  OverlayItem item{.name = name};
+  std::fill(std::begin(item.values), std::end(item.values), kNothing);
+  return item;
+}
 
 }  // namespace
 
@@ -47,7 +61,8 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
   counts_.clear();
   counts_.push_back({"characters", static_cast<float>(simulation.characters().size())});
   counts_.push_back({"draw calls", static_cast<float>(renderer.stats().draw_calls)});
-  counts_.push_back({"muscle vertices", static_cast<float>(renderer.stats().strip_vertices)});
+  const RenderStats& drawn = renderer.stats();
+  counts_.push_back({"muscle vertices", static_cast<float>(drawn.strip_vertices + drawn.surface_vertices)});
   const Simulation::DetailCounts details = simulation.count_details();
   for (std::size_t level = 0; details.characters.size() > 1 && level < details.characters.size(); ++level) {
     counts_.push_back({kLevelNames[std::min(level, kLevelNames.size() - 1)],
@@ -72,12 +87,7 @@ const OverlayModel& OverlayFeed::build(Simulation& simulation, const Renderer& r
   read_costs(simulation);
   list_items(simulation, shown);
   model_.item_heading = "muscle";
-  model_.value_headings = {"length mm", "vol cm3", "force N", "", "", ""};
-  if (collision.any()) {
-    model_.value_headings[3] = "contacts";
-    model_.value_headings[4] = "deep mm";
-    if (simulation.world().resource<CostLedger>().enabled()) model_.value_headings[5] = "solve us";
-  }
+  choose_columns();
   model_.task = &task;
   model_.systems = systems_;
   model_.gpu = gpu_;
@@ -95,38 +105,97 @@ void OverlayFeed::read_costs(const Simulation& simulation) {
   constexpr int kBuildsBetween = 30;
   if (builds_++ % kBuildsBetween != 0) return;
   costs_ = simulation.world().resource<CostLedger>().statistics();
-  std::erase_if(costs_, [](const ItemCost& cost) { return cost.system != "solve_muscles"; });
+  std::erase_if(costs_, [](const ItemCost& cost) {
+    return cost.system != "solve_muscles" && cost.system != "solve_surface_muscles";
+  });
 }
 
-void OverlayFeed::list_items(Simulation& simulation, std::size_t shown) {
+float OverlayFeed::cost_of(const std::string& owner, const std::string& item) const {
+  const auto cost = std::find_if(costs_.begin(), costs_.end(),
+                                 [&](const ItemCost& c) { return c.item == item && c.owner == owner; });
+  return cost == costs_.end() ? kNothing : static_cast<float>(1e3 * cost->mean_ms);
+}
+
+void OverlayFeed::list_items(const Simulation& simulation, std::size_t shown) {
   items_.clear();
   if (shown >= simulation.characters().size()) return;
   const SpawnedCharacter& character = simulation.characters()[shown];
-  if (character.musculature == ecs::kNoEntity) return;
+  const std::string owner = cost_owner(character, shown);
+  if (character.musculature != ecs::kNoEntity) list_units(simulation, character, owner);
+  list_surfaces(simulation, character, owner);
+  for (OverlayItem& item : items_) {
+    const ItemState& state = item_state(std::string(item.name));
+    item.visible = state.visible;
+    item.highlighted = state.highlighted;
+  }
+}
+
+void OverlayFeed::list_units(const Simulation& simulation, const SpawnedCharacter& character,
+                             const std::string& owner) {
   const muscle::MuscleAsset& asset = *character.asset->muscles;
   const auto& measures = simulation.world().get<muscle::MuscleMeasures>(character.musculature);
   const auto& lines = simulation.world().get<muscle::ActionLines>(character.musculature);
   const auto* collision = simulation.world().try_get<muscle::MuscleCollision>(character.musculature);
-  const std::string owner = cost_owner(character, shown);
-  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t m = 0; m < asset.size(); ++m) {
-    const std::string& name = asset.muscles[m].name;
-    const ItemState& state = item_state(name);
-    OverlayItem item{name, {measures.length[m] * 1e3f, measures.volume[m] * 1e6f, measures.force[m], kNothing, kNothing,
-                            kNothing}};
-    item.visible = state.visible;
-    item.highlighted = state.highlighted;
+    OverlayItem& item = items_.emplace_back(make_item(asset.muscles[m].name));
+    item.values[kLength] = measures.length[m] * 1e3f;
+    item.values[kVolume] = measures.volume[m] * 1e6f;
+    item.values[kForce] = measures.force[m];
     item.warning = lines.held[m] != 0;
     if (collision != nullptr && m < collision->cost.size()) {
-      item.values[3] = collision->cost[m];
-      item.values[4] = 1e3f * collision->depth[m];
+      item.values[kContacts] = collision->cost[m];
+      item.values[kDepth] = 1e3f * collision->depth[m];
     }
-    const auto cost = std::find_if(costs_.begin(), costs_.end(), [&](const ItemCost& c) {
-      return c.item == name && c.owner == owner;
-    });
-    if (cost != costs_.end()) item.values[5] = static_cast<float>(1e3 * cost->mean_ms);
-    items_.push_back(item);
+    item.values[kSolve] = cost_of(owner, asset.muscles[m].name);
   }
+}
+
+// One that has fallen back to where its carriers bring it is painted amber. Its length is its fibres' mean.
+void OverlayFeed::list_surfaces(const Simulation& simulation, const SpawnedCharacter& character,
+                                const std::string& owner) {
+  const ecs::World& world = simulation.world();
+  const auto list = [&](ecs::Entity entity, const muscle::SurfaceMuscle& surface, const muscle::SurfaceState& state) {
+    if (surface.character != character.entity) return;
+    OverlayItem& item = items_.emplace_back(make_item(surface.asset->name));
+    item.values[kVolume] = 1e6f * static_cast<float>(state.volume);
+    if (surface.asset->volume > 0.0) {
+      item.values[kShare] = 100.0f * static_cast<float>(state.volume / surface.asset->volume);
+    }
+    item.values[kVertices] = static_cast<float>(surface.asset->vertex_count);
+    item.warning = state.fallbacks > 0;
+    if (const auto* contacts = world.try_get<muscle::SurfaceContacts>(entity)) {
+      float vertices = 0.0f, depth = 0.0f;
+      for (const muscle::SurfaceContact& contact : contacts->now) {
+        vertices += static_cast<float>(contact.vertices);
+        depth = std::max(depth, contact.depth);
+      }
+      item.values[kContacts] = vertices;
+      item.values[kDepth] = 1e3f * depth;
+    }
+    if (const auto* fibres = world.try_get<muscle::FibreBundle>(entity); fibres != nullptr && !fibres->length.empty()) {
+      const float sum = std::accumulate(fibres->length.begin(), fibres->length.end(), 0.0f);
+      item.values[kLength] = 1e3f * sum / static_cast<float>(fibres->length.size());
+    }
+    item.values[kSolve] = cost_of(fmt::format("{} {}", owner, surface.asset->name), "");
+  };
+  world.view<const muscle::SurfaceMuscle, const muscle::SurfaceState>().each(list);
+}
+
+// Those that some item has a value for, moved together.
+void OverlayFeed::choose_columns() {
+  std::size_t used = 0;
+  for (std::size_t column = 0; column < kColumns; ++column) {
+    const bool any = std::any_of(items_.begin(), items_.end(),
+                                 [&](const OverlayItem& item) { return !std::isnan(item.values[column]); });
+    if (!any) continue;
+    model_.value_headings[used] = kColumnNames[column];
+    for (OverlayItem& item : items_) item.values[used] = item.values[column];
+    ++used;
+  }
+}
+
+std::string OverlayFeed::item_name(std::size_t index) const {
+  return index < items_.size() ? std::string(items_[index].name) : std::string();
 }
 
 void OverlayFeed::set_messages(const Diagnostics& diagnostics) {

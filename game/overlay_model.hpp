@@ -21,13 +21,14 @@ struct ViewSwitch {
   Key key;
   bool DrawView::* field;
 };
-inline constexpr std::array<ViewSwitch, 8> kViewSwitches = {{
+inline constexpr std::array<ViewSwitch, 9> kViewSwitches = {{
     {"skin", "S", Key::s, &DrawView::skins},
     {"bones", "B", Key::b, &DrawView::meshes},
     {"muscles", "M", Key::m, &DrawView::strips},
     {"action lines", "A", Key::a, &DrawView::lines},
     {"sections", "C", Key::c, &DrawView::rings},
     {"tendons", "T", Key::t, &DrawView::tendons},
+    {"fibres", "F", Key::f, &DrawView::fibres},
     {"ground", "G", Key::g, &DrawView::ground},
     {"collision", "K", Key::k, &DrawView::marks},
 }};
@@ -55,10 +56,19 @@ class OverlayFeed {
     bool highlighted = false;
   };
   ItemState& item_state(const std::string& name) { return item_states_[name]; }
+  // Of an item of the last model, whose index the overlay's actions tell: its name; empty where there is none.
+  std::string item_name(std::size_t index) const;
 
  private:
-  void list_items(Simulation& simulation, std::size_t shown);
+  // A column of the list of muscles, and how it is filled in.
+  enum Column : std::size_t { kLength, kVolume, kShare, kForce, kContacts, kDepth, kVertices, kSolve, kColumns };
+
+  void list_items(const Simulation& simulation, std::size_t shown);
+  void list_units(const Simulation& simulation, const SpawnedCharacter& character, const std::string& owner);
+  void list_surfaces(const Simulation& simulation, const SpawnedCharacter& character, const std::string& owner);
+  void choose_columns();
   void read_costs(const Simulation& simulation);
+  float cost_of(const std::string& owner, const std::string& item) const;  // us; NaN: not measured
 
   std::string title_, subtitle_;
   std::vector<std::string> errors_, warnings_;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -45,6 +46,13 @@ class Progress {
 }  // namespace
 
 int run_headless(const GameOptions& options, std::shared_ptr<const muscle::SceneAsset> scene) {
+  const std::uint64_t frames = options.frames.value_or(static_cast<std::uint64_t>(scene->frames));
+  if (!options.sheet_frames.empty() && options.sheet_frames.back() > frames) {
+    std::fprintf(stderr, "--sheet-frames asks for frame %llu of %llu; ask for earlier ones or more --frames\n",
+                 static_cast<unsigned long long>(options.sheet_frames.back()),
+                 static_cast<unsigned long long>(frames));
+    return kExitUsage;
+  }
   std::unique_ptr<Screen> screen;
   if (options.draw) {
     auto opened = open_headless(options.width, options.height);
@@ -64,16 +72,22 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
   DrawView draw_view;
   draw_view.camera = scene_camera(*scene);  // muscles have their level of detail by it, drawn or not
   draw_view.lines = false;
-  draw_view.skins = !options.show_collision;
+  draw_view.skins = !options.show_collision && !options.show_fibres;
+  draw_view.fibres = options.show_fibres;
   if (options.show_collision) draw_view.lines_through = 0.6f;
   if (screen) view.emplace(simulation, *screen->renderer);
   const auto mark = [&] {  // immediate marks are of one picture
     if (options.show_collision) view->mark_collision();
   };
 
-  const std::uint64_t frames = options.frames.value_or(static_cast<std::uint64_t>(scene->frames));
   std::optional<ContactSheet> sheet;
-  if (!options.contact_sheet_file.empty()) sheet.emplace(draw_view.camera, frames);
+  if (!options.contact_sheet_file.empty()) {
+    const auto& characters = simulation.characters();
+    const bool any_skin = std::any_of(characters.begin(), characters.end(),
+                                      [](const SpawnedCharacter& character) { return !character.skins.empty(); });
+    sheet.emplace(draw_view, options.sheet_frames.empty() ? spread_frames(frames) : options.sheet_frames,
+                  options.sheet_sides, draw_view.skins && any_skin);
+  }
   RunRecorder recorder(options, simulation, frames);
   Progress progress(frames);
 

@@ -7,7 +7,9 @@
 
 #include "engine/content/file_text.hpp"
 #include "engine/ecs/monotonic_clock.hpp"
+#include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/muscle.hpp"
+#include "modules/muscle/spawn_surface_muscles.hpp"
 
 namespace fascicle::game {
 namespace {
@@ -41,8 +43,15 @@ void RunRecorder::announce_items(Simulation& simulation) {
   if (!options_.detail) return;
   for (std::size_t i = 0; i < simulation.characters().size(); ++i) {
     const SpawnedCharacter& character = simulation.characters()[i];
-    if (character.musculature == ecs::kNoEntity) continue;
-    muscle::list_costs(simulation.world(), character.musculature, cost_owner(character, i));
+    const std::string owner = cost_owner(character, i);
+    if (character.musculature != ecs::kNoEntity) {
+      muscle::list_costs(simulation.world(), character.musculature, owner);
+    }
+    simulation.world().view<const muscle::SurfaceMuscle>().each(
+        [&](ecs::Entity entity, const muscle::SurfaceMuscle& surface) {
+          if (surface.character != character.entity) return;
+          muscle::list_surface_costs(simulation.world(), entity, fmt::format("{} {}", owner, surface.asset->name));
+        });
   }
   simulation.world().resource<CostLedger>().set_enabled(true);
 }
@@ -57,6 +66,7 @@ void RunRecorder::record_step(Simulation& simulation) {
   stats_.record(timings);
   if (trace_) trace_->record(timings);
   collision_.record(simulation, options_.detail);
+  surface_stats_.record(simulation);
   if (!options_.report_file.empty()) {
     report_.begin_frame();
     simulation.record_metrics(report_);
@@ -126,7 +136,9 @@ int RunRecorder::finish(Simulation& simulation) {
     written &= explain(write_text_atomically(options_.report_file,
                                              report_.to_json(simulation.scene().name, simulation.hash())));
   }
-  if (options_.headless) std::fputs((stats_.to_table() + collision_.to_table()).c_str(), stdout);
+  if (options_.headless) {
+    std::fputs((stats_.to_table() + collision_.to_table() + surface_stats_.to_table()).c_str(), stdout);
+  }
   if (options_.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(simulation.hash()));
   return written ? kExitOk : kExitNoOutput;
 }

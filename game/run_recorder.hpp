@@ -15,6 +15,7 @@
 #include "game/report.hpp"
 #include "game/simulation.hpp"
 #include "game/surface_figures.hpp"
+#include "game/surface_stats.hpp"
 
 namespace fascicle::game {
 
@@ -46,6 +47,7 @@ class RunRecorder {
   const GameOptions& options_;
   FrameStats stats_;
   CollisionStats collision_;
+  SurfaceStats surface_stats_;
   std::optional<Trace> trace_;
   Report report_;
   PenetrationReport penetration_;

@@ -40,7 +40,8 @@ class WindowRun {
     view_.camera = scene_camera(simulation_.scene());
     view_.lines = false;
     view_.marks = options.show_collision;
-    view_.skins = !options.show_collision;
+    view_.skins = !options.show_collision && !options.show_fibres;
+    view_.fibres = options.show_fibres;
   }
 
   int run() {
@@ -193,10 +194,9 @@ class WindowRun {
   }
 
   void flip(int item, bool OverlayFeed::ItemState::* field) {
-    const SpawnedCharacter& shown = simulation_.characters()[shown_character_];
-    const std::size_t index = static_cast<std::size_t>(item);
-    if (!shown.asset->muscles || index >= shown.asset->muscles->size()) return;
-    OverlayFeed::ItemState& state = feed_.item_state(shown.asset->muscles->muscles[index].name);
+    const std::string name = feed_.item_name(static_cast<std::size_t>(item));
+    if (name.empty()) return;
+    OverlayFeed::ItemState& state = feed_.item_state(name);
     state.*field = !(state.*field);
     apply_item_states();
   }
@@ -204,12 +204,17 @@ class WindowRun {
   // What the user hid or marked, by the muscles' names, so that it outlives a reload.
   void apply_item_states() {
     const SpawnedCharacter& shown = simulation_.characters()[shown_character_];
-    if (!shown.asset->muscles) return;
-    for (std::uint32_t m = 0; m < shown.asset->muscles->size(); ++m) {
-      const OverlayFeed::ItemState& state = feed_.item_state(shown.asset->muscles->muscles[m].name);
-      scene_view_.set_muscle_flags(shown.scene_index, m,
-                                   (state.visible ? 0u : kItemHidden) | (state.highlighted ? kItemHighlighted : 0u));
+    const auto flags_of = [this](const std::string& name) {
+      const OverlayFeed::ItemState& state = feed_.item_state(name);
+      return (state.visible ? 0u : kItemHidden) | (state.highlighted ? kItemHighlighted : 0u);
+    };
+    for (std::uint32_t m = 0; shown.asset->muscles && m < shown.asset->muscles->size(); ++m) {
+      scene_view_.set_muscle_flags(shown.scene_index, m, flags_of(shown.asset->muscles->muscles[m].name));
     }
+    simulation_.world().view<const muscle::SurfaceMuscle>().each([&](const muscle::SurfaceMuscle& surface) {
+      if (surface.character != shown.entity) return;
+      scene_view_.set_surface_flags(shown.scene_index, surface.asset->name, flags_of(surface.asset->name));
+    });
   }
 
   void toggle_pause() { simulation_.loop().set_paused(!simulation_.loop().paused()); }

@@ -5,6 +5,7 @@
 #include "engine/animation/skinning_systems.hpp"
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/collision/collision_asset.hpp"
+#include "modules/muscle/asset/fibres/fibre_bundle.hpp"
 #include "modules/muscle/muscle.hpp"
 
 namespace fascicle::game {
@@ -55,11 +56,13 @@ SceneView::SceneView(Simulation& simulation, Renderer& renderer) : simulation_(s
   simulation_.schedule().add("upload_bones", upload_bones);
   simulation_.schedule().add("upload_skins", upload_skins);
   simulation_.schedule().add("upload_muscles", muscle::upload_muscles);
+  simulation_.schedule().add("upload_surface_muscles", muscle::upload_surface_muscles);
   attach();
 }
 
 void SceneView::attach() {
   for (const SpawnedCharacter& character : simulation_.characters()) attach_character(character);
+  attach_surfaces();
 }
 
 void SceneView::attach_character(const SpawnedCharacter& character) {
@@ -98,6 +101,35 @@ void SceneView::attach_character(const SpawnedCharacter& character) {
   world.add(character.musculature, std::move(drawn));
 }
 
+void SceneView::attach_surfaces() {
+  ecs::World& world = simulation_.world();
+  std::vector<ecs::Entity> entities;
+  world.view<const muscle::SurfaceMuscle>().each(
+      [&](ecs::Entity entity, const muscle::SurfaceMuscle&) { entities.push_back(entity); });
+  for (const ecs::Entity entity : entities) {
+    const auto& surface = world.get<muscle::SurfaceMuscle>(entity);
+    muscle::DrawnSurfaceMuscle drawn;
+    drawn.surface = renderer_.add_surface(surface.asset->vertex_count, surface.asset->triangles);
+    if (const auto* bundle = world.try_get<muscle::FibreBundle>(entity); bundle != nullptr && bundle->asset) {
+      drawn.fibres = renderer_.add_fibres(bundle->asset->count * bundle->asset->points_per_fibre,
+                                          muscle::make_fibre_indices(*bundle->asset));
+    }
+    world.add(entity, drawn);
+    if (surface.musculature != ecs::kNoEntity) apply_flags(surface.musculature, surface.driver, 0);
+  }
+}
+
+void SceneView::release_surfaces() {
+  ecs::World& world = simulation_.world();
+  std::vector<ecs::Entity> entities;
+  world.view<muscle::DrawnSurfaceMuscle>().each([&](ecs::Entity entity, muscle::DrawnSurfaceMuscle& drawn) {
+    renderer_.remove(drawn.surface);
+    if (drawn.fibres) renderer_.remove(drawn.fibres);
+    entities.push_back(entity);
+  });
+  for (const ecs::Entity entity : entities) world.remove<muscle::DrawnSurfaceMuscle>(entity);
+}
+
 muscle::DrawnMuscles::Level SceneView::add_level(const muscle::MuscleAsset& asset) {
   const auto [shared, is_new] = muscles_.try_emplace(&asset);
   if (is_new) {
@@ -111,6 +143,7 @@ muscle::DrawnMuscles::Level SceneView::add_level(const muscle::MuscleAsset& asse
 
 void SceneView::release() {
   ecs::World& world = simulation_.world();
+  release_surfaces();
   for (const SpawnedCharacter& character : simulation_.characters()) {
     if (const DrawnBones* bones = world.try_get<DrawnBones>(character.entity)) {
       renderer_.remove(bones->group);
@@ -152,6 +185,12 @@ void SceneView::mark_collision() {
     muscle::mark_displacements(*collision, lines, bones, marks_);
     muscle::mark_contacts(*contacts, marks_);
   }
+  world.view<const muscle::SurfaceMuscle, const muscle::DrawnSurface>().each(
+      [&](const muscle::SurfaceMuscle& surface, const muscle::DrawnSurface& drawn) {
+        muscle::mark_attached(*surface.asset, drawn, marks_);
+      });
+  world.view<const muscle::SurfaceContacts>().each(
+      [&](const muscle::SurfaceContacts& contacts) { muscle::mark_surface_contacts(contacts, marks_); });
   muscle::draw_marks(marks_, renderer_);
 }
 
@@ -184,11 +223,32 @@ muscle::Viewer make_viewer(const OrbitCamera& camera, int height, std::optional<
 void SceneView::set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags) {
   for (const SpawnedCharacter& character : simulation_.characters()) {
     if (character.scene_index != scene_index || character.musculature == ecs::kNoEntity) continue;
-    const muscle::DrawnMuscles& drawn = simulation_.world().get<muscle::DrawnMuscles>(character.musculature);
-    for (const muscle::DrawnMuscles::Level& level : drawn.levels) {
-      const std::span<StripItem> items = renderer_.strip_items(level.strips);
-      if (muscle < items.size()) items[muscle].flags = flags;
-    }
+    apply_flags(character.musculature, muscle, flags);
+  }
+}
+
+void SceneView::apply_flags(ecs::Entity musculature, std::uint32_t muscle, std::uint32_t flags) {
+  ecs::World& world = simulation_.world();
+  world.view<const muscle::SurfaceMuscle>().each([&](const muscle::SurfaceMuscle& surface) {
+    if (surface.musculature == musculature && surface.driver == muscle) flags |= kItemHidden;
+  });
+  for (const muscle::DrawnMuscles::Level& level : world.get<muscle::DrawnMuscles>(musculature).levels) {
+    const std::span<StripItem> items = renderer_.strip_items(level.strips);
+    if (muscle < items.size()) items[muscle].flags = flags;
+  }
+}
+
+void SceneView::set_surface_flags(std::size_t scene_index, std::string_view name, std::uint32_t flags) {
+  for (const SpawnedCharacter& character : simulation_.characters()) {
+    if (character.scene_index != scene_index) continue;
+    simulation_.world().view<const muscle::SurfaceMuscle, const muscle::DrawnSurfaceMuscle>().each(
+        [&](const muscle::SurfaceMuscle& surface, const muscle::DrawnSurfaceMuscle& drawn) {
+          if (surface.character != character.entity || surface.asset->name != name) return;
+          const bool visible = (flags & kItemHidden) == 0;
+          renderer_.set_visible(drawn.surface, visible);
+          if (drawn.fibres) renderer_.set_visible(drawn.fibres, visible);
+          renderer_.set_highlighted(drawn.surface, (flags & kItemHighlighted) != 0);
+        });
   }
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "engine/animation/skeleton.hpp"
@@ -15,6 +16,7 @@
 #include "game/simulation.hpp"
 #include "modules/muscle/systems/5_present/draw_collision.hpp"
 #include "modules/muscle/systems/5_present/draw_muscles.hpp"
+#include "modules/muscle/systems/5_present/draw_surface_muscles.hpp"
 
 namespace fascicle::game {
 
@@ -63,8 +65,11 @@ class SceneView {
   // The section and vertex that a tag names, on one of Simulation::characters().
   void mark_place(std::size_t character, const muscle::SectionTag& tag, std::uint32_t colour);
 
-  // Of one muscle, on all characters of its asset, at every level of detail: hidden or highlighted.
+  // Of one muscle, on all characters of its asset, at every level of detail: hidden or highlighted. A muscle that
+  // drives a surface muscle stays hidden: that is what it looks like.
   void set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags);
+  // Likewise of a surface muscle, by its name.
+  void set_surface_flags(std::size_t scene_index, std::string_view name, std::uint32_t flags);
 
  private:
   struct SharedMuscles {
@@ -73,6 +78,9 @@ class SceneView {
   };
 
   void attach_character(const SpawnedCharacter& character);
+  void attach_surfaces();
+  void release_surfaces();
+  void apply_flags(ecs::Entity musculature, std::uint32_t muscle, std::uint32_t flags);
   muscle::DrawnMuscles::Level add_level(const muscle::MuscleAsset& asset);
 
   Simulation& simulation_;

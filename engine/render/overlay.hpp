@@ -40,7 +40,7 @@ struct OverlaySlider {
 };
 
 // A row of the item list. Values in the units that the model's headings state; one that is not a number is left out.
-inline constexpr std::size_t kOverlayValues = 6;
+inline constexpr std::size_t kOverlayValues = 8;
 struct OverlayItem {
   std::string_view name;
   float values[kOverlayValues] = {};
@@ -78,7 +78,7 @@ struct OverlayModel {
   std::span<const OverlaySwitch> switches;
   std::span<const OverlaySlider> sliders;
   const char* item_heading = "item";
-  std::array<const char*, kOverlayValues> value_headings = {"", "", "", "", "", ""};  // up to the first empty one
+  std::array<const char*, kOverlayValues> value_headings = {"", "", "", "", "", "", "", ""};  // up to the first empty
   std::span<const OverlayItem> items;
   const OverlayTask* task = nullptr;
   std::span<const std::string> errors;    // shown in red until gone from the model

@@ -32,6 +32,12 @@ TEST(GameOptions, WrongArgumentsLeaveWithTheUsageStatus) {
       {"--headless", "--frames", "10", "--screenshot", "p.png@11"},
       {"--width", "1"},
       {"--contact-sheet", "sheet.png"},
+      {"--headless", "--sheet-frames", "1,2"},
+      {"--headless", "--sheet-sides", "2"},
+      {"--headless", "--contact-sheet", "sheet.png", "--sheet-frames", "0"},
+      {"--headless", "--contact-sheet", "sheet.png", "--sheet-frames", "1,x"},
+      {"--headless", "--contact-sheet", "sheet.png", "--sheet-sides", "0"},
+      {"--headless", "--no-draw", "--show-fibres"},
       {"--headless", "--screenshot", ""},
       {"--headless", "--stats", ""},
       {"--headless", "--stats", "a.json", "--report", "a.json"},
@@ -59,6 +65,22 @@ TEST(GameOptions, CollisionIsShownOnRequest) {
   EXPECT_FALSE(parse({}).options.show_collision);
   EXPECT_TRUE(parse({"--show-collision"}).options.show_collision);
   EXPECT_TRUE(parse({"--headless", "--show-collision", "--screenshot", "p.png"}).options.show_collision);
+}
+
+TEST(GameOptions, ASheetsFramesAndSidesMayBeChosen) {
+  const ParsedOptions plain = parse({"--headless", "--contact-sheet", "sheet.png"});
+  EXPECT_TRUE(plain.options.sheet_frames.empty());
+  EXPECT_EQ(plain.options.sheet_sides, 4);
+  const ParsedOptions chosen =
+      parse({"--headless", "--contact-sheet", "sheet.png", "--sheet-frames", "300,1,50,50", "--sheet-sides", "1"});
+  ASSERT_FALSE(chosen.exit_status.has_value());
+  EXPECT_EQ(chosen.options.sheet_frames, (std::vector<std::uint64_t>{1, 50, 300}));
+  EXPECT_EQ(chosen.options.sheet_sides, 1);
+}
+
+TEST(GameOptions, FibresAreShownOnRequest) {
+  EXPECT_FALSE(parse({}).options.show_fibres);
+  EXPECT_TRUE(parse({"--show-fibres"}).options.show_fibres);
 }
 
 TEST(GameOptions, LevelsAreBySizeOrByNumber) {

@@ -12,7 +12,7 @@ void write_surface_muscles(ecs::View<const SurfaceMuscle, const SurfaceState, Dr
                          DrawnSurface& drawn) {
     const SurfaceAsset& asset = *muscle.asset;
     if (drawn.vertices.size() != asset.vertex_count || state.points.size() < asset.vertex_count) return;
-    const ScopedCost cost(costs.row(entity), 0);
+    const ScopedCost cost(costs.row(entity), ScopedCost::kWhole);
     write_surface_vertices(asset.triangles, state.points, state.frame, drawn.vertices);
   };
   ecs::each_in_parallel(muscles, 1, write);

@@ -178,8 +178,7 @@ TEST_F(WriteSurfaceMuscles, ASurfaceOfAnotherSizeIsPassedOver) {
 TEST_F(WriteSurfaceMuscles, ItsTimeIsInTheLedgerAndNothingIsAllocated) {
   const ecs::Entity entity = spawn(test::make_sphere(0.05f, 24, 32));
   CostLedger& ledger = world_.resource<CostLedger>();
-  const std::vector<std::string> names = {"sphere"};
-  ledger.add_owner(entity, "somebody", names);
+  ledger.add_owner(entity, "somebody's sphere", {});
   ledger.set_enabled(true);
   parallel::WorkerArena arena(1);
   schedule_.run(world_, arena);
@@ -192,7 +191,7 @@ TEST_F(WriteSurfaceMuscles, ItsTimeIsInTheLedgerAndNothingIsAllocated) {
   ledger.end_frame();
   const auto rows = ledger.statistics();
   const bool listed = std::any_of(rows.begin(), rows.end(), [](const ItemCost& row) {
-    return row.system == "write_surface_muscles" && row.item == "sphere";
+    return row.system == "write_surface_muscles" && row.owner == "somebody's sphere";
   });
   EXPECT_TRUE(listed);
 }

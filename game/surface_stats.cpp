@@ -1,0 +1,63 @@
+#include "game/surface_stats.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "game/collision_stats.hpp"
+#include "modules/muscle/components/surface_muscle.hpp"
+
+namespace fascicle::game {
+
+void SurfaceStats::record(const Simulation& simulation) {
+  const ecs::World& world = simulation.world();
+  const auto& characters = simulation.characters();
+  std::size_t next = 0;
+  const auto take = [&](ecs::Entity entity, const muscle::SurfaceMuscle& surface, const muscle::SurfaceState& state) {
+    if (next == rows_.size() || rows_[next].entity != entity) {
+      rows_.resize(next);
+      Row row;
+      row.entity = entity;
+      const auto owner = std::find_if(characters.begin(), characters.end(), [&](const SpawnedCharacter& character) {
+        return character.entity == surface.character;
+      });
+      if (owner != characters.end()) {
+        row.owner = cost_owner(*owner, static_cast<std::size_t>(owner - characters.begin()));
+      }
+      row.muscle = surface.asset->name;
+      row.vertices = surface.asset->vertex_count;
+      rows_.push_back(std::move(row));
+    }
+    Row& row = rows_[next++];
+    ++row.steps;
+    row.fallbacks = state.fallbacks;
+    if (surface.asset->volume > 0.0) {
+      const double ratio = state.volume / surface.asset->volume;
+      row.least_volume = std::min(row.least_volume, ratio);
+      row.most_volume = std::max(row.most_volume, ratio);
+    }
+    const auto* contacts = world.try_get<muscle::SurfaceContacts>(entity);
+    if (contacts == nullptr) return;
+    for (const muscle::SurfaceContact& contact : contacts->now) {
+      row.held += static_cast<double>(contact.vertices);
+      row.depth = std::max(row.depth, contact.depth);
+    }
+  };
+  world.view<const muscle::SurfaceMuscle, const muscle::SurfaceState>().each(take);
+  rows_.resize(next);
+}
+
+std::string SurfaceStats::to_table() const {
+  if (rows_.empty()) return {};
+  std::string text = fmt::format("\n{:<16}  {:<32}  {:>9}  {:>9}  {:>12}  {:>19}  {:>9}\n", "owner", "surface muscle",
+                                 "vertices", "at bones", "pushed, mm", "volume, %", "fallbacks");
+  for (const Row& row : rows_) {
+    const std::string volume = fmt::format("{:.3f} .. {:.3f}", 100.0 * row.least_volume, 100.0 * row.most_volume);
+    text += fmt::format("{:<16}  {:<32}  {:>9}  {:>9.1f}  {:>12.3f}  {:>19}  {:>9}\n", row.owner, row.muscle,
+                        row.vertices, row.held / static_cast<double>(row.steps), 1e3 * static_cast<double>(row.depth),
+                        volume, row.fallbacks);
+  }
+  return text;
+}
+
+}  // namespace fascicle::game
