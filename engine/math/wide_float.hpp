@@ -436,10 +436,11 @@ FASCICLE_INLINE WideRecord<N> load_records(const float* records, const int* inde
   } else {
     __m512 row[4];  // of lanes i, i + 4, i + 8 and i + 12
     for (int i = 0; i < 4; ++i) {
-      row[i] = _mm512_castps128_ps512(load_record(records, index, i));
-      row[i] = _mm512_mask_broadcast_f32x4(row[i], 0x00f0, load_record(records, index, i + 4));
-      row[i] = _mm512_mask_broadcast_f32x4(row[i], 0x0f00, load_record(records, index, i + 8));
-      row[i] = _mm512_mask_broadcast_f32x4(row[i], 0xf000, load_record(records, index, i + 12));
+      const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(load_record(records, index, i)),
+                                             load_record(records, index, i + 4), 1);
+      const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(load_record(records, index, i + 8)),
+                                             load_record(records, index, i + 12), 1);
+      row[i] = _mm512_insertf32x8(_mm512_castps256_ps512(lo), hi, 1);
     }
     const __m512 xy_lo = _mm512_unpacklo_ps(row[0], row[1]), zw_lo = _mm512_unpackhi_ps(row[0], row[1]);
     const __m512 xy_hi = _mm512_unpacklo_ps(row[2], row[3]), zw_hi = _mm512_unpackhi_ps(row[2], row[3]);
@@ -483,10 +484,11 @@ FASCICLE_INLINE void store_records_at(WideRecord<N> a, float* records, const int
     const __m512 row[4] = {_mm512_shuffle_ps(xy_lo, zw_lo, 0x44), _mm512_shuffle_ps(xy_lo, zw_lo, 0xee),
                            _mm512_shuffle_ps(xy_hi, zw_hi, 0x44), _mm512_shuffle_ps(xy_hi, zw_hi, 0xee)};
     for (int i = 0; i < 4; ++i) {
-      store_record(records, index, i, _mm512_castps512_ps128(row[i]));
-      store_record(records, index, i + 4, _mm512_extractf32x4_ps(row[i], 1));
-      store_record(records, index, i + 8, _mm512_extractf32x4_ps(row[i], 2));
-      store_record(records, index, i + 12, _mm512_extractf32x4_ps(row[i], 3));
+      const __m256 lo = _mm512_castps512_ps256(row[i]), hi = _mm512_extractf32x8_ps(row[i], 1);
+      store_record(records, index, i, _mm256_castps256_ps128(lo));
+      store_record(records, index, i + 4, _mm256_extractf128_ps(lo, 1));
+      store_record(records, index, i + 8, _mm256_castps256_ps128(hi));
+      store_record(records, index, i + 12, _mm256_extractf128_ps(hi, 1));
     }
 #endif
   }

@@ -1,15 +1,15 @@
 // Edges and dihedral angles (4.1), as many hinges side by side as the instruction set has lanes.
 //
-// With the edge's unit vector u, a = p_3 - p_1, b = p_4 - p_1, the triangles' heights over the edge are |m_1| and |m_2|,
-// m_1 = u x a and m_2 = b x u, and the angle is theta = atan2(-m_1 . b, m_1 . m_2). Its gradients are
+// With e = p_2 - p_1, L = |e|, a = p_3 - p_1, b = p_4 - p_1, N_1 = e x a and N_2 = b x e the angle is
+// theta = atan2(-L N_1 . b, N_1 . N_2), since N_1 x N_2 = -(N_1 . b) e. Its gradients are
 //
-//   g_3 = -m_1 / |m_1|^2            g_1 = -((L - s_3) g_3 + (L - s_4) g_4) / L
-//   g_4 = -m_2 / |m_2|^2            g_2 = -(s_3 g_3 + s_4 g_4) / L            s_3 = a . u,  s_4 = b . u
+//   g_3 = -L N_1 / |N_1|^2          g_1 = -((L - s_3) g_3 + (L - s_4) g_4) / L
+//   g_4 = -L N_2 / |N_2|^2          g_2 = -(s_3 g_3 + s_4 g_4) / L              s_3 = a . e / L,  s_4 = b . e / L
 //
-// so that all squared lengths are known from |m_1|^2, |m_2|^2 and m_1 . m_2. Everything is multiplied by
-// L^2 |m_1|^2 |m_2|^2, which leaves one quotient for the angle's step. A step of the edge moves p_1 and p_2 along u: it
-// changes L, s_3 and s_4, but neither u nor m nor theta, so the angle is projected after the edge, yet need not wait
-// for it. For the kernels' source files only (see engine/math/wide_float.hpp).
+// so that all their squared lengths are known from |N_1|^2, |N_2|^2 and N_1 . N_2. Everything is multiplied by
+// |N_1|^2 |N_2|^2, which leaves one quotient for the angle's step. A step of the edge moves p_1 and p_2 along e: it
+// changes L, s_3 and s_4, but neither the heights |N| / L nor theta, so the angle is projected after the edge, yet need
+// not wait for it. For the kernels' source files only (see engine/math/wide_float.hpp).
 #pragma once
 
 #include "engine/math/wide_float.hpp"
@@ -57,16 +57,23 @@ FASCICLE_INLINE void move(WideRecord<N>& p, WideVector<N> by) {
   p.z = p.z + by.z;
 }
 
+template <int N>
+FASCICLE_INLINE void move_back(WideRecord<N>& p, WideVector<N> by) {
+  p.x = p.x - by.x;
+  p.y = p.y - by.y;
+  p.z = p.z - by.z;
+}
+
 // A hinge's shape: all that its constraints and their gradients need.
 template <int N>
 struct Fold {
   WideInt<N> has_edge, has_angle;
-  WideFloat<N> length;          // m
-  WideVector<N> along;          // u; 0 where there is no edge
-  WideFloat<N> along_3, along_4;  // m: s_3 and s_4
-  WideVector<N> normal_3, normal_4;  // m: m_1 and m_2
-  WideFloat<N> square_3, square_4, mixed;  // m^2: |m_1|^2, |m_2|^2, m_1 . m_2
-  WideFloat<N> angle;           // rad; 0 where there is none
+  WideVector<N> edge;                      // m: e
+  WideFloat<N> length, inverse_length;     // m, 1/m; the latter is 0 where there is no edge
+  WideFloat<N> along_3, along_4;           // m: s_3 and s_4
+  WideVector<N> normal_3, normal_4;        // m^2: N_1 and N_2
+  WideFloat<N> square_3, square_4, mixed;  // m^4: |N_1|^2, |N_2|^2, N_1 . N_2
+  WideFloat<N> angle;                      // rad; 0 where there is none
 };
 
 template <int N>
@@ -78,17 +85,18 @@ FASCICLE_INLINE Fold<N> fold_of(const WideRecord<N>& p1, const WideRecord<N>& p2
   const WideFloat<N> square = dot(e, e);
   fold.has_edge = broadcast<N>(kShortestEdge * kShortestEdge) < square;
   fold.length = square_root(square);
-  fold.along = select(fold.has_edge, broadcast<N>(1.0f) / fold.length, zero) * e;
-  fold.along_3 = dot(a, fold.along);
-  fold.along_4 = dot(b, fold.along);
-  fold.normal_3 = cross(fold.along, a);
-  fold.normal_4 = cross(b, fold.along);
+  fold.edge = e;
+  fold.inverse_length = select(fold.has_edge, broadcast<N>(1.0f) / fold.length, zero);
+  fold.along_3 = fold.inverse_length * dot(a, e);
+  fold.along_4 = fold.inverse_length * dot(b, e);
+  fold.normal_3 = cross(e, a);
+  fold.normal_4 = cross(b, e);
   fold.square_3 = dot(fold.normal_3, fold.normal_3);
   fold.square_4 = dot(fold.normal_4, fold.normal_4);
   fold.mixed = dot(fold.normal_3, fold.normal_4);
   const WideFloat<N> least = broadcast<N>(kSmallestArea2);
-  fold.has_angle = fold.has_edge & (least < square * fold.square_3) & (least < square * fold.square_4);
-  const WideFloat<N> sine = zero - dot(fold.normal_3, b);
+  fold.has_angle = fold.has_edge & (least < fold.square_3) & (least < fold.square_4);
+  const WideFloat<N> sine = zero - fold.length * dot(fold.normal_3, b);
   fold.angle = select(fold.has_angle, arc_tangent(sine, fold.mixed), zero);
   return fold;
 }
@@ -129,19 +137,20 @@ FASCICLE_INLINE void project_lanes(const PackRow& row, std::size_t lane, float* 
   const WideFloat<N> q1 = rest_3 * (rest_3 * fold.square_4 + twice * rest_4) + (rest_4 * rest_4) * fold.square_3;
   const WideFloat<N> q2 = along_3 * (along_3 * fold.square_4 + twice * along_4) + (along_4 * along_4) * fold.square_3;
   const WideFloat<N> q34 = p3.w * fold.square_4 + p4.w * fold.square_3;
-  const WideFloat<N> bend = inverse_h2 * load<N>(row.bend_compliance + lane);
-  const WideFloat<N> sum = square * (q34 + bend * (fold.square_3 * fold.square_4)) + (p1.w * q1 + p2.w * q2);
+  const WideFloat<N> height_4 = fold.square_4 * (fold.inverse_length * fold.inverse_length);  // squared, of p_4
+  const WideFloat<N> bend = inverse_h2 * load<N>(row.bend_compliance + lane) * (fold.square_3 * height_4);
+  const WideFloat<N> sum = square * (q34 + bend) + (p1.w * q1 + p2.w * q2);
   const WideFloat<N> turn = wrap(fold.angle - load<N>(row.angle + lane));
-  const WideFloat<N> factor = select(fold.has_angle & (broadcast<N>(kSmallestSum) < sum), turn / sum, zero);
+  const WideFloat<N> factor =
+      select(fold.has_angle & (broadcast<N>(kSmallestSum) < sum), (turn * fold.inverse_length) / sum, zero);
   const WideVector<N> lift_3 = fold.square_4 * fold.normal_3, lift_4 = fold.square_3 * fold.normal_4;
 
   const WideFloat<N> outer = factor * square, inner = factor * length;
   move(p3, (p3.w * outer) * lift_3);
   move(p4, (p4.w * outer) * lift_4);
   const WideVector<N> sag_1 = rest_3 * lift_3 + rest_4 * lift_4, sag_2 = along_3 * lift_3 + along_4 * lift_4;
-  const WideVector<N> zeros{zero, zero, zero};
-  move(p1, zeros - (back * fold.along + (p1.w * inner) * sag_1));
-  move(p2, forth * fold.along - (p2.w * inner) * sag_2);
+  move_back(p1, (back * fold.inverse_length) * fold.edge + (p1.w * inner) * sag_1);
+  move(p2, (forth * fold.inverse_length) * fold.edge - (p2.w * inner) * sag_2);
   store_records_at(p1, points, row.vertex[0] + lane);
   store_records_at(p2, points, row.vertex[1] + lane);
   store_records_at(p3, points, row.vertex[2] + lane);
@@ -149,13 +158,13 @@ FASCICLE_INLINE void project_lanes(const PackRow& row, std::size_t lane, float* 
 }
 
 inline void project_hinges(const HingeRows& rows) {
+  // Two native registers where a pack has so many: one's arithmetic fills the other's waiting times.
+  constexpr int N = 2 * kNativeLanes < static_cast<int>(kHingeLanes) ? 2 * kNativeLanes : static_cast<int>(kHingeLanes);
   float* points = reinterpret_cast<float*>(rows.points);
-  const WideFloat<kNativeLanes> inverse_h2 = broadcast<kNativeLanes>(rows.inverse_h2);
+  const WideFloat<N> inverse_h2 = broadcast<N>(rows.inverse_h2);
   for (std::size_t i = 0; i < rows.pack_count; ++i) {
     const PackRow row = row_of(rows.packs[i]);
-    for (std::size_t lane = 0; lane < kHingeLanes; lane += kNativeLanes) {
-      project_lanes<kNativeLanes>(row, lane, points, inverse_h2);
-    }
+    for (std::size_t lane = 0; lane < kHingeLanes; lane += N) project_lanes<N>(row, lane, points, inverse_h2);
   }
 }
 
@@ -189,7 +198,7 @@ inline void fade_differences(const ViscosityRows& rows) {
       const WideFloat<N> factor = select(zero < masses, share / masses, zero);
       const WideVector<N> push = factor * (place(v2) - place(v1));
       move(v1, w1 * push);
-      move(v2, (zero - w2) * push);
+      move_back(v2, w2 * push);
       store_records_at(v1, velocities, first);
       store_records_at(v2, velocities, second);
     }

@@ -85,7 +85,8 @@ inline double project_volume(const VolumeRows& rows) {
   float* points = reinterpret_cast<float*>(rows.points);
   const float* gradients = reinterpret_cast<const float*>(rows.gradient);
   for (std::size_t i = 0; i < (rows.vertex_count + 3) / 4; ++i) {
-    const WideFloat<16> p = load_vertices(points, i, rows.vertex_count), g = load_vertices(gradients, i, rows.vertex_count);
+    const WideFloat<16> p = load_vertices(points, i, rows.vertex_count);
+    const WideFloat<16> g = load_vertices(gradients, i, rows.vertex_count);
     store_vertices(p + (reorder<kAllW>(p) * lambda) * g, points, i, rows.vertex_count);
   }
   return sums.volume;
