@@ -17,8 +17,9 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr std::size_t kDirections = 48;   // over half a sphere: the shortest chord is found within some 10 degrees
-constexpr std::size_t kTries = 4;         // chords, the shortest first, until one has a free view
+constexpr std::size_t kDirections = 64;   // over half a sphere: the best chord is found within some 10 degrees
+constexpr std::size_t kTries = 4;         // chords, the best first, until one has a free view
+constexpr double kGrazing = 0.05;         // sines of angles below count as this: such a chord is bad enough
 constexpr double kTouch = 1.0e-4;         // of the way to the vertex behind: nearer to it the surface is its own triangles
 constexpr std::size_t kChunk = 64;
 
@@ -33,21 +34,27 @@ std::array<glm::dvec3, kDirections> spread_directions() {
   return directions;
 }
 
-// Weights of a triangle's corners, none negative, for the place nearest to `p` in its plane.
-glm::dvec3 barycentric(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corner) {
+using Corners = std::array<glm::dvec3, 3>;
+
+glm::dvec3 unit_normal(const Corners& corner) {
+  const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const double length = glm::length(n);
+  return length > 0.0 ? n / length : glm::dvec3(0.0);
+}
+
+// Factors of a triangle's corners, summing to 1, that give the place nearest to `p` in its plane; zero where it has none.
+glm::dvec3 barycentric(const glm::dvec3& p, const Corners& corner) {
   const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double square = glm::dot(n, n);
-  if (!(square > 0.0)) return {1.0, 0.0, 0.0};
-  glm::dvec3 w(glm::dot(n, glm::cross(corner[2] - corner[1], p - corner[1])),
-               glm::dot(n, glm::cross(corner[0] - corner[2], p - corner[2])),
-               glm::dot(n, glm::cross(corner[1] - corner[0], p - corner[0])));
-  w = glm::max(w / square, glm::dvec3(0.0));
-  return w / (w.x + w.y + w.z);
+  if (!(square > 0.0)) return glm::dvec3(0.0);
+  const double b = glm::dot(n, glm::cross(p - corner[0], corner[2] - corner[0])) / square;
+  const double c = glm::dot(n, glm::cross(corner[1] - corner[0], p - corner[0])) / square;
+  return {1.0 - b - c, b, c};
 }
 
 // The part of a line within the mesh that holds t = 0.
 struct Chord {
-  double length = 0.0;
+  double cost = 0.0;           // m: the length, more where it meets a face at a slant
   std::uint32_t far = 0;       // the triangle at its further end
 };
 
@@ -58,20 +65,23 @@ class Binder {
 
   FibreBinding bind(const glm::dvec3& p) const {
     std::vector<Chord> chords = chords_through(p);
-    std::ranges::stable_sort(chords, [](const Chord& a, const Chord& b) { return a.length < b.length; });
+    std::ranges::stable_sort(chords, [](const Chord& a, const Chord& b) { return a.cost < b.cost; });
     if (chords.size() > kTries) chords.resize(kTries);
     for (const Chord& chord : chords)
-      if (const std::optional<FibreBinding> binding = bind_across(p, chord)) return *binding;
-    // Nothing behind it can be seen.
-    const std::uint32_t nearest = surface_.at(glm::vec3(p)).triangle;
-    return blend(nearest, barycentric(p, corners(nearest)), mesh_.indices[3 * nearest], 0.0);
+      if (const std::optional<FibreBinding> binding = bind_across(p, chord.far)) return *binding;
+    return bind_below(p);
   }
 
  private:
-  std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const {
+  Corners corners(std::uint32_t triangle) const {
     return {glm::dvec3(mesh_.positions[mesh_.indices[3 * triangle]]),
             glm::dvec3(mesh_.positions[mesh_.indices[3 * triangle + 1]]),
             glm::dvec3(mesh_.positions[mesh_.indices[3 * triangle + 2]])};
+  }
+
+  // The sine of the angle at which a direction meets a triangle.
+  double squareness(std::uint32_t triangle, const glm::dvec3& direction) const {
+    return std::max(std::abs(glm::dot(unit_normal(corners(triangle)), direction)), kGrazing);
   }
 
   std::vector<Chord> chords_through(const glm::dvec3& p) const {
@@ -88,18 +98,19 @@ class Binder {
         if (crossings[k].t > 0.0f && after == nullptr) after = &crossings[k];
       }
       if (before == nullptr || after == nullptr || before->exit || !after->exit) continue;
-      chords.push_back({static_cast<double>(after->t) - static_cast<double>(before->t),
+      const double length = static_cast<double>(after->t) - static_cast<double>(before->t);
+      chords.push_back({length / squareness(before->triangle, directions_[i]) / squareness(after->triangle, directions_[i]),
                         -before->t > after->t ? before->triangle : after->triangle});
     }
     return chords;
   }
 
-  // From a corner of the chord's further triangle through the point to the surface on this side.
-  std::optional<FibreBinding> bind_across(const glm::dvec3& p, const Chord& chord) const {
+  // From a corner of the triangle through the point to the surface on this side.
+  std::optional<FibreBinding> bind_across(const glm::dvec3& p, std::uint32_t far) const {
     std::array<Line, 3> lines;
     std::array<double, 3> behind{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 way = p - corners(chord.far)[k];
+      const glm::dvec3 way = p - corners(far)[k];
       behind[k] = glm::length(way);
       if (!(behind[k] > 0.0)) return std::nullopt;
       lines[k] = {glm::vec3(p), glm::vec3(way / behind[k])};
@@ -108,7 +119,7 @@ class Binder {
     std::vector<LineCrossing> crossings;
     scene_.cast_all(lines, starts, crossings);
     std::optional<FibreBinding> best;
-    double shortest = 0.0;
+    double least = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const LineCrossing* after = nullptr;
       bool free = true;
@@ -118,26 +129,48 @@ class Binder {
         if (t > 0.0 && after == nullptr) after = &crossings[c];
       }
       if (!free || after == nullptr || !after->exit) continue;
-      const double ahead = static_cast<double>(after->t), length = behind[k] + ahead;
-      if (best && length >= shortest) continue;
-      shortest = length;
-      const glm::dvec3 hit = p + ahead * glm::dvec3(lines[k].direction);
-      best = blend(after->triangle, barycentric(hit, corners(after->triangle)), mesh_.indices[3 * chord.far + k],
-                   ahead / length);
+      const double length = behind[k] + static_cast<double>(after->t);
+      const double cost = length / squareness(after->triangle, glm::dvec3(lines[k].direction));
+      if (best && cost >= least) continue;
+      if (const std::optional<FibreBinding> binding = bend(p, mesh_.indices[3 * far + k], after->triangle)) {
+        best = binding;
+        least = cost;
+      }
     }
     return best;
   }
 
-  // `share` of the vertex, the rest of the triangle's place.
-  FibreBinding blend(std::uint32_t triangle, const glm::dvec3& weights, std::uint32_t vertex, double share) const {
-    FibreBinding binding;
-    for (int k = 0; k < 3; ++k) {
-      binding.vertex[static_cast<std::size_t>(k)] = mesh_.indices[3 * triangle + static_cast<std::uint32_t>(k)];
-      binding.weight[static_cast<std::size_t>(k)] = static_cast<float>((1.0 - share) * weights[k]);
-    }
-    binding.vertex[3] = vertex;
-    binding.weight[3] = static_cast<float>(share);
-    return binding;
+  // The parabola from the triangle to the vertex, through `p` at rest; nothing where the triangle has no area.
+  std::optional<FibreBinding> bend(const glm::dvec3& p, std::uint32_t vertex, std::uint32_t triangle) const {
+    const Corners corner = corners(triangle);
+    const glm::dvec3 v(mesh_.positions[vertex]), normal = unit_normal(corner);
+    const double across = glm::dot(v - corner[0], normal);  // of the whole chord: negative, inwards
+    if (!(across < 0.0)) return std::nullopt;
+    // h from the line itself, so that p is met exactly.
+    const double u = glm::dot(p - corner[0], normal) / across, s = 1.0 - u;
+    if (!(u >= 0.0 && u < 1.0)) return std::nullopt;
+    const glm::dvec3 h = (p - u * v) / s;
+    const glm::dvec3 at_h = barycentric(h, corner), at_v = barycentric(v, corner);
+    const glm::dvec3 weights = (s * s + 2.0 * s * u) * at_h + s * u * (at_v - at_h);
+    return make(triangle, weights, vertex, u * u, s * u * across);
+  }
+
+  // Held by the nearest triangle alone, as far under it as it is.
+  FibreBinding bind_below(const glm::dvec3& p) const {
+    const std::uint32_t nearest = surface_.at(glm::vec3(p)).triangle;
+    const Corners corner = corners(nearest);
+    const glm::dvec3 weights = barycentric(p, corner);
+    const glm::dvec3 whole = weights == glm::dvec3(0.0) ? glm::dvec3(1.0, 0.0, 0.0) : weights;
+    return make(nearest, whole, mesh_.indices[3 * nearest], 0.0, glm::dot(p - corner[0], unit_normal(corner)));
+  }
+
+  FibreBinding make(std::uint32_t triangle, const glm::dvec3& weights, std::uint32_t vertex, double last,
+                    double rise) const {
+    const std::uint32_t* corner = &mesh_.indices[3 * triangle];
+    return {{corner[0], corner[1], corner[2], vertex},
+            {static_cast<float>(weights.x), static_cast<float>(weights.y), static_cast<float>(weights.z),
+             static_cast<float>(last)},
+            static_cast<float>(rise)};
   }
 
   const TriangleMesh& mesh_;

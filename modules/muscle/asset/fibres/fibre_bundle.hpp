@@ -1,9 +1,8 @@
 // The fibres inside a surface muscle (4.4): made at rest by one of two methods, then bound to the surface, so that they
 // follow its deformation at the cost of a few gathers a point. Immutable, shared by all characters that have the muscle.
 //
-// A point is bound to four vertices across the muscle: to the triangle of the surface that it lies near and to a vertex
-// behind it, seen along the shortest chord through it. It stays between them however the surface moves, so it leaves
-// the muscle only where the surface comes in from the side, across a chord.
+// How a point is bound so that it stays inside: see bind_fibres.hpp. It leaves the muscle only where the surface comes
+// in across its chord from the side, or passes through itself.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Where fibres are while the surface that they are bound to deforms, and how long they are. Made for every step: a
-// point is four gathers of 16 bytes, so a thousand fibres of ten points take some tens of microseconds.
+// point is four gathers of 16 bytes and a normal, so a thousand fibres of ten points take some tens of microseconds.
 #pragma once
 
 #include <array>
@@ -10,12 +10,13 @@
 
 namespace fascicle::muscle {
 
-// A fibre's point is a convex combination of four of the surface's vertices: weights are not negative and sum to 1.
-struct alignas(32) FibreBinding {
+// A fibre's point is sum(weight * vertex) + rise * n, n the unit normal of the triangle of the first three vertices,
+// (b - a) x (c - a). Weights sum to 1; see asset/fibres/bind_fibres.hpp for what they are.
+struct FibreBinding {
   std::array<std::uint32_t, 4> vertex{};
   std::array<float, 4> weight{};
+  float rise = 0.0f;                       // m
 };
-static_assert(sizeof(FibreBinding) == 32);
 
 struct PlaceFibresJob {
   std::span<const FibreBinding> bindings;  // fibre after fibre
