@@ -56,6 +56,17 @@ FASCICLE_INLINE WideFloat<16> carry_four(const PointRows& rows, std::size_t four
   return join<kEven>(xy, z0) + join<kOdd>(xy, z0);
 }
 
+inline void carry(const PointRows& rows) {
+  const float* rest = reinterpret_cast<const float*>(rows.rest);
+  float* points = reinterpret_cast<float*>(rows.points);
+  const bool carried = rows.carry != nullptr && !is_still(rows.moved, rows.moved_count);
+  for (std::size_t four = 0; 4 * four < rows.vertex_count; ++four) {
+    WideFloat<16> p = load_vertices(rest, four, rows.vertex_count);
+    if (carried) p = p + carry_four(rows, four, p);
+    store_vertices(p, points, four, rows.vertex_count);
+  }
+}
+
 inline void predict(const PointRows& rows) {
   float* points = reinterpret_cast<float*>(rows.points);
   float* before = reinterpret_cast<float*>(rows.before);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kLeastReach = 0.003f;     // m beyond the contact distance that a vertex may come nearer to a bone in a step
 constexpr float kReachPerSpeed = 2.0f;    // of what the fastest vertex moved in the last step
+constexpr std::size_t kCarriedSample = 16;  // of so many vertices one is asked how far it is carried
 constexpr float kFurthest = 4.0f;         // of the muscle's size at rest, between two vertices: more has diverged
 
 glm::vec3 place(const SurfacePoint& p) { return {p.x, p.y, p.z}; }
@@ -37,14 +38,17 @@ glm::dmat4 part_of(const RigidMotion& motion, double fraction) {
   return result;
 }
 
-// The rows that PredictJob wants; exactly zero for what does not move.
-void set_moved(const RigidMotion& motion, double begin, double end, float* rows) {
-  std::fill_n(rows, 12, 0.0f);
-  if (motion.from == motion.to) return;
-  const glm::dmat4 moved = part_of(motion, end) * glm::inverse(part_of(motion, begin)) - glm::dmat4(1.0);
+// The rows that the kernels want.
+void set_rows(const glm::dmat4& moved, float* rows) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) rows[4 * row + column] = static_cast<float>(moved[column][row]);
   }
+}
+
+// Of a part of a motion, less the identity; exactly zero for what does not move.
+void set_moved(const RigidMotion& motion, double begin, double end, float* rows) {
+  if (motion.from == motion.to) return set_rows(glm::dmat4(0.0), rows);
+  set_rows(part_of(motion, end) * glm::inverse(part_of(motion, begin)) - glm::dmat4(1.0), rows);
 }
 
 void attach(const SurfaceStep& step, SurfaceScratch& scratch, double fraction) {
@@ -88,10 +92,13 @@ float reach_of(const SurfaceStep& step, const SurfaceBone& bone, const RigidMoti
   return step.settings.contact_distance + kLeastReach + kReachPerSpeed * fastest * step.step + carried;
 }
 
-void find_near(const SurfaceStep& step, SurfaceScratch& scratch) {
+float speed_of_fastest(const SurfaceStep& step) {
   float fastest = 0.0f;
   for (const SurfacePoint& v : step.velocity) fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
-  fastest = std::sqrt(fastest);
+  return std::sqrt(fastest);
+}
+
+void find_near(const SurfaceStep& step, float fastest, SurfaceScratch& scratch) {
   const std::span<const SurfacePoint> vertices = step.points.first(step.asset->vertex_count);
   place_bones(step, scratch, 0.0, 0.0);
   for (std::size_t b = 0; b < step.bones.size(); ++b) {
@@ -107,18 +114,55 @@ void find_near(const SurfaceStep& step, SurfaceScratch& scratch) {
 }
 
 // Where the carriers bring the rest shape; exactly the rest shape where they stand at rest.
-void place_carried(const SurfaceStep& step, std::span<SurfacePoint> points) {
-  const SurfaceAsset& asset = *step.asset;
-  for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
-    const glm::vec3 rest = place(asset.rest[v]);
-    glm::vec3 moved(0.0f);
-    for (std::size_t i = 0; i < 4 && !asset.carry.empty(); ++i) {
-      const float weight = asset.carry[v].weight[i];
-      const glm::mat4& to = step.carriers[asset.carry[v].carrier[i]].to;
-      if (weight > 0.0f && to != glm::mat4(1.0f)) moved += weight * (glm::vec3(to * glm::vec4(rest, 1.0f)) - rest);
-    }
-    set(points[v], rest + moved);
+void place_carried(const SurfaceStep& step, SurfaceScratch& scratch, std::span<SurfacePoint> points) {
+  for (std::size_t c = 0; c < step.carriers.size(); ++c) {
+    set_rows(glm::dmat4(step.carriers[c].to) - glm::dmat4(1.0), &scratch.moved[12 * c]);
   }
+  step.kernels->carry({.carry = step.asset->carry, .moved = scratch.moved, .vertex_count = step.asset->vertex_count,
+                       .rest = step.asset->rest, .out = points});
+}
+
+// m: how far the carriers move any vertex in this step; of some vertices, for all are carried like their neighbours.
+float furthest_carried(const SurfaceStep& step) {
+  const SurfaceAsset& asset = *step.asset;
+  float furthest = 0.0f;
+  for (std::size_t v = 0; v < asset.carry.size(); v += kCarriedSample) {
+    const glm::vec4 rest(place(asset.rest[v]), 1.0f);
+    glm::vec3 moved(0.0f);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float weight = asset.carry[v].weight[i];
+      const RigidMotion& motion = step.carriers[asset.carry[v].carrier[i]];
+      if (weight > 0.0f && motion.from != motion.to) moved += weight * glm::vec3(motion.to * rest - motion.from * rest);
+    }
+    furthest = std::max(furthest, glm::length(moved));
+  }
+  return furthest;
+}
+
+bool touches_itself(const SurfaceStep& step) {
+  return step.settings.collide_with_itself && step.asset->tree != nullptr;
+}
+
+PairsJob pairs_with_itself(const SurfaceStep& step, const SurfaceScratch& scratch) {
+  PairsJob job;
+  job.first = {.asset = step.asset, .tree = step.asset->tree.get(), .boxes = &scratch.boxes, .points = step.points,
+               .clearance = {}};
+  job.contact_distance = step.settings.contact_distance;
+  return job;
+}
+
+// Also where a game has switched it on since the muscle was laid out.
+void make_room_for_itself(const SurfaceAsset& asset, SurfaceScratch& scratch) {
+  if (!scratch.boxes.normal_ranges.empty() || asset.tree == nullptr) return;
+  lay_out_boxes(*asset.tree, asset, true, scratch.boxes);
+  lay_out_pairs(usual_pair_capacity(asset.vertex_count), scratch.itself);
+}
+
+PredictJob predict_job(const SurfaceStep& step, SurfaceScratch& scratch) {
+  const float h = step.step / static_cast<float>(step.settings.substeps);
+  return {.carry = step.asset->carry, .moved = scratch.moved, .vertex_count = step.asset->vertex_count,
+          .points = step.points, .before = scratch.before, .velocity = step.velocity, .h = h,
+          .keep = std::exp(-step.settings.damping * h), .anchors = scratch.anchors, .pull = scratch.pull};
 }
 
 float pull_of(const SurfaceStep& step, float inverse_h2) {
@@ -141,54 +185,79 @@ void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch) {
   scratch.moved.assign(12 * asset.carriers.size(), 0.0f);
   scratch.touches.assign(asset.bones.size(), BoneTouch{});
   scratch.bones.assign(asset.bones.size(), SurfaceBone{});
+  if (asset.settings.collide_with_itself) make_room_for_itself(asset, scratch);
 }
 
-double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
+void begin_step(const SurfaceStep& step, SurfaceScratch& scratch) {
+  const float h = step.step / static_cast<float>(step.settings.substeps);
+  scratch.pull = pull_of(step, 1.0f / (h * h));
+  scratch.six_volumes = step.asset->kernel_volume;
+  if (scratch.pull > 0.0f) place_carried(step, scratch, scratch.anchors);
+  const float fastest = speed_of_fastest(step);
+  find_near(step, fastest, scratch);
+  scratch.nearer = kReachPerSpeed * fastest * step.step + furthest_carried(step);
+  if (!touches_itself(step)) return;
+  make_room_for_itself(*step.asset, scratch);
+  keep_pairs(pairs_with_itself(step, scratch), scratch.nearer, scratch.boxes, nullptr, scratch.itself);
+}
+
+void move_and_constrain(const SurfaceStep& step, std::uint32_t substep, SurfaceScratch& scratch) {
   const SurfaceAsset& asset = *step.asset;
   const SurfaceSettings& settings = step.settings;
   const float h = step.step / static_cast<float>(settings.substeps);
   const float inverse_h2 = 1.0f / (h * h);
-  const PredictJob predict{.carry = asset.carry, .moved = scratch.moved, .vertex_count = asset.vertex_count,
-                           .points = step.points, .before = scratch.before, .velocity = step.velocity, .h = h,
-                           .keep = std::exp(-settings.damping * h), .anchors = scratch.anchors,
-                           .pull = pull_of(step, inverse_h2)};
-  const HingeJob hinges{.packs = asset.packs, .points = step.points, .inverse_h2 = inverse_h2};
-  const VolumeJob volume{.triangles = asset.triangles, .vertex_count = asset.vertex_count, .points = step.points,
-                         .gradient = scratch.gradient, .rest = asset.kernel_volume,
-                         .compliance = 36.0f * settings.volume_compliance * inverse_h2, .rings = &asset.rings};
-  double six_volumes = asset.kernel_volume;
-  if (predict.pull > 0.0f) place_carried(step, scratch.anchors);
-  find_near(step, scratch);
-  for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
-    const double begin = static_cast<double>(substep) / settings.substeps;
-    const double end = static_cast<double>(substep + 1) / settings.substeps;
-    for (std::size_t c = 0; c < step.carriers.size(); ++c) {
-      set_moved(step.carriers[c], begin, end, &scratch.moved[12 * c]);
-    }
-    step.kernels->predict(predict);
-    attach(step, scratch, end);
-    place_bones(step, scratch, begin, end);
-    step.kernels->project_hinges(hinges);
-    six_volumes = step.kernels->project_volume(volume);
-    for (std::size_t b = 0; b < step.bones.size(); ++b) {
-      const auto near = std::span(scratch.near).subspan(scratch.first_near[b],
-                                                        scratch.first_near[b + 1] - scratch.first_near[b]);
-      if (near.empty()) continue;
-      push_from_bone(scratch.bones[b], near, scratch.before, settings.contact_distance, settings.friction,
-                     step.points, scratch.touches[b]);
-    }
-    step.kernels->take_velocities(predict);
+  const double begin = static_cast<double>(substep) / settings.substeps;
+  const double end = static_cast<double>(substep + 1) / settings.substeps;
+  for (std::size_t c = 0; c < step.carriers.size(); ++c) {
+    set_moved(step.carriers[c], begin, end, &scratch.moved[12 * c]);
   }
-  // Once a step: what rings does so for longer than that.
-  if (settings.viscosity > 0.0f) {
-    step.kernels->fade_differences({.packs = asset.packs, .points = step.points, .velocity = step.velocity,
-                                    .share = 1.0f - std::exp(-settings.viscosity * step.step)});
-  }
-  return six_volumes / 6.0;
+  step.kernels->predict(predict_job(step, scratch));
+  attach(step, scratch, end);
+  step.kernels->project_hinges({.packs = asset.packs, .points = step.points, .inverse_h2 = inverse_h2});
+  scratch.six_volumes = step.kernels->project_volume(
+      {.triangles = asset.triangles, .vertex_count = asset.vertex_count, .points = step.points,
+       .gradient = scratch.gradient, .rest = asset.kernel_volume,
+       .compliance = 36.0f * settings.volume_compliance * inverse_h2, .rings = &asset.rings});
+  if (touches_itself(step)) project_pairs(pairs_with_itself(step, scratch), scratch.itself);
 }
 
-void carry_rest_shape(const SurfaceStep& step) {
-  place_carried(step, step.points);
+void finish_substep(const SurfaceStep& step, std::uint32_t substep, SurfaceScratch& scratch) {
+  const SurfaceSettings& settings = step.settings;
+  place_bones(step, scratch, static_cast<double>(substep) / settings.substeps,
+              static_cast<double>(substep + 1) / settings.substeps);
+  for (std::size_t b = 0; b < step.bones.size(); ++b) {
+    const auto near = std::span(scratch.near).subspan(scratch.first_near[b],
+                                                      scratch.first_near[b + 1] - scratch.first_near[b]);
+    if (near.empty()) continue;
+    push_from_bone(scratch.bones[b], near, scratch.before, settings.contact_distance, settings.friction, step.points,
+                   scratch.touches[b]);
+  }
+  step.kernels->take_velocities(predict_job(step, scratch));
+}
+
+double end_step(const SurfaceStep& step, SurfaceScratch& scratch) {
+  const SurfaceSettings& settings = step.settings;
+  // Once a step: what rings does so for longer than that.
+  if (settings.viscosity > 0.0f) {
+    step.kernels->fade_differences({.packs = step.asset->packs, .points = step.points, .velocity = step.velocity,
+                                    .share = 1.0f - std::exp(-settings.viscosity * step.step)});
+  }
+  return scratch.six_volumes / 6.0;
+}
+
+double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
+  begin_step(step, scratch);
+  for (std::uint32_t substep = 0; substep < step.settings.substeps; ++substep) {
+    move_and_constrain(step, substep, scratch);
+    finish_substep(step, substep, scratch);
+  }
+  return end_step(step, scratch);
+}
+
+void carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch) {
+  place_carried(step, scratch, step.points);
+  forget_pairs(scratch.itself);
+  ++scratch.restarts;
   for (const AttachedVertex& attached : step.asset->attached) {
     const glm::mat4& to = step.attachments[attached.attachment].to;
     if (to == glm::mat4(1.0f)) continue;

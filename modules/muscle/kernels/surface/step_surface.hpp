@@ -6,6 +6,8 @@
 //   attach     attached vertices stand where their bones have them at the substep's end
 //   hinges     edges and dihedral angles, colour after colour
 //   volume     one Newton step of the whole mesh
+//   contacts   what has come too near to other parts of the muscle, or to other muscles, is pushed apart
+//              (surface_pairs.hpp)
 //   bones      vertices are pushed out of level sets (bone_contact.hpp)
 //   velocities from what all this has moved, beside the carriers; once a step their differences along edges fade
 //
@@ -28,6 +30,7 @@
 #include "engine/math/aligned_vector.hpp"
 #include "modules/muscle/kernels/surface/bone_contact.hpp"
 #include "modules/muscle/kernels/surface/surface_kernels.hpp"
+#include "modules/muscle/kernels/surface/surface_pairs.hpp"
 
 namespace fascicle::muscle {
 
@@ -41,6 +44,12 @@ struct SurfaceScratch {
   std::vector<float> moved;                      // 12 a carrier, see PredictJob
   std::vector<BoneTouch> touches;                // by bone it collides with
   std::vector<SurfaceBone> bones;                // likewise
+  SurfaceBoxes boxes;                            // none where it has no contacts but with bones
+  SurfacePairs itself;                           // contacts with itself
+  float nearer = 0.0f;                           // m: how much nearer two of its parts may come in this step
+  float pull = 0.0f;                             // see PredictJob
+  double six_volumes = 0.0;                      // m^3, at the last pass
+  std::uint32_t restarts = 0;                    // how often it was put where its carriers bring it
 };
 void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch);
 
@@ -66,9 +75,16 @@ struct SurfaceStep {
 // Returns the volume (m^3) at the last pass.
 double step_surface(const SurfaceStep& step, SurfaceScratch& scratch);
 
+// The same in parts, for muscles that touch each other and so go together, substep by substep:
+//   begin_step; in each substep move_and_constrain, contacts between muscles, finish_substep; end_step.
+void begin_step(const SurfaceStep& step, SurfaceScratch& scratch);
+void move_and_constrain(const SurfaceStep& step, std::uint32_t substep, SurfaceScratch& scratch);
+void finish_substep(const SurfaceStep& step, std::uint32_t substep, SurfaceScratch& scratch);
+double end_step(const SurfaceStep& step, SurfaceScratch& scratch);
+
 // Where the carriers bring the rest shape, attached vertices where their bones have them, without velocities: how a
 // muscle starts, and what it falls back to. `step.*.to` counts. At rest the answer is the rest shape exactly.
-void carry_rest_shape(const SurfaceStep& step);
+void carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch);
 
 // Finite, and no vertex further from the first than a muscle can stretch.
 bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points);

@@ -34,11 +34,12 @@ struct VolumeRows {
   float compliance = 0.0f;
 };
 
-struct PointRows {
+struct PointRows {  // `carry` goes from `rest` to `points`
   const CarryWeights* carry = nullptr;  // null: nothing carries
   const float* moved = nullptr;
   std::size_t moved_count = 0;
   std::size_t vertex_count = 0;
+  const SurfacePoint* rest = nullptr;
   SurfacePoint *points = nullptr, *before = nullptr, *velocity = nullptr;
   float h = 0.0f;
   float keep = 1.0f;
@@ -59,6 +60,7 @@ struct SurfaceKernelTable {
   void (*measure_hinges)(const HingeRuler& ruler);
   double (*project_volume)(const VolumeRows& rows);
   double (*measure_volume)(const VolumeRows& rows);
+  void (*carry)(const PointRows& rows);
   void (*predict)(const PointRows& rows);
   void (*take_velocities)(const PointRows& rows);
   void (*fade_differences)(const ViscosityRows& rows);

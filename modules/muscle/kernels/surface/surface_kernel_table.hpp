@@ -11,7 +11,7 @@ namespace fascicle::muscle::FASCICLE_ISA {
 extern const SurfaceKernelTable kSurfaceKernels;
 
 const SurfaceKernelTable kSurfaceKernels{project_hinges, measure_hinges, project_volume,
-                                         measure_volume, predict,        take_velocities,
-                                         fade_differences};
+                                         measure_volume, carry,          predict,
+                                         take_velocities, fade_differences};
 
 }  // namespace fascicle::muscle::FASCICLE_ISA

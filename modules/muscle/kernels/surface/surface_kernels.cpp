@@ -32,6 +32,7 @@ PointRows rows_of(const PredictJob& job) {
           .moved = job.moved.data(),
           .moved_count = job.moved.size(),
           .vertex_count = job.vertex_count,
+          .rest = nullptr,
           .points = job.points.data(),
           .before = job.before.data(),
           .velocity = job.velocity.data(),
@@ -55,6 +56,16 @@ struct Wrapped {
   static double measure_volume(const VolumeJob& job) {
     return has_rings(job) ? kTable.measure_volume(rows_of(job)) : surface_reference_kernels().measure_volume(job);
   }
+  static void carry(const CarryJob& job) {
+    PointRows rows;
+    rows.carry = job.carry.empty() ? nullptr : job.carry.data();
+    rows.moved = job.moved.data();
+    rows.moved_count = job.moved.size();
+    rows.vertex_count = job.vertex_count;
+    rows.rest = job.rest.data();
+    rows.points = job.out.data();
+    kTable.carry(rows);
+  }
   static void predict(const PredictJob& job) { kTable.predict(rows_of(job)); }
   static void take_velocities(const PredictJob& job) { kTable.take_velocities(rows_of(job)); }
   static void measure_hinges(std::span<const HingePack> packs, std::span<const SurfacePoint> points,
@@ -64,8 +75,8 @@ struct Wrapped {
   static void fade_differences(const ViscosityJob& job) {
     kTable.fade_differences({job.packs.data(), job.packs.size(), job.points.data(), job.velocity.data(), job.share});
   }
-  static constexpr SurfaceKernels kKernels{project_hinges,  project_volume, measure_volume,  predict,
-                                           take_velocities, measure_hinges, fade_differences};
+  static constexpr SurfaceKernels kKernels{project_hinges,  project_volume, measure_volume,  carry,
+                                           predict,         take_velocities, measure_hinges, fade_differences};
 };
 
 }  // namespace

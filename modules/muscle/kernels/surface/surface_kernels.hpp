@@ -50,6 +50,15 @@ struct PredictJob {
   float pull = 0.0f;                      // 0..1, w / (w + alpha_a / h^2)
 };
 
+// Where carriers bring points: out = rest + the weighted sum of what each does to it.
+struct CarryJob {
+  std::span<const CarryWeights> carry;    // empty: nothing carries
+  std::span<const float> moved;           // 12 a carrier: rows of its matrix, less the identity
+  std::uint32_t vertex_count = 0;
+  std::span<const SurfacePoint> rest;
+  std::span<SurfacePoint> out;
+};
+
 // Velocities' differences along edges fade (4.3's muscles do not ring): one pass over the packs, in which each edge's
 // ends give each other `share` of what they differ by, the lighter one the most. Momentum is kept; held points stay.
 struct ViscosityJob {
@@ -65,6 +74,7 @@ struct SurfaceKernels {
   double (*project_volume)(const VolumeJob& job);
   // Six times the volume, nothing moved.
   double (*measure_volume)(const VolumeJob& job);
+  void (*carry)(const CarryJob& job);
   void (*predict)(const PredictJob& job);
   // velocity = (points - before) / h.
   void (*take_velocities)(const PredictJob& job);

@@ -128,21 +128,32 @@ double project_volume(const VolumeJob& job) {
   return volume;
 }
 
+// How far its carriers take a point.
+glm::vec3 carried(std::span<const CarryWeights> carry, std::span<const float> moved, std::size_t v,
+                  const SurfacePoint& p) {
+  glm::vec3 sum{0.0f};
+  if (carry.empty()) return sum;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const float* row = moved.data() + 12 * static_cast<std::size_t>(carry[v].carrier[i]);
+    sum += carry[v].weight[i] * glm::vec3(row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3],
+                                          row[4] * p.x + row[5] * p.y + row[6] * p.z + row[7],
+                                          row[8] * p.x + row[9] * p.y + row[10] * p.z + row[11]);
+  }
+  return sum;
+}
+
+void carry(const CarryJob& job) {
+  for (std::size_t v = 0; v < job.vertex_count; ++v) {
+    job.out[v] = job.rest[v];
+    add(job.out[v], carried(job.carry, job.moved, v, job.rest[v]));
+  }
+}
+
 void predict(const PredictJob& job) {
   for (std::size_t v = 0; v < job.vertex_count; ++v) {
     SurfacePoint& p = job.points[v];
     if (!(p.inverse_mass > 0.0f)) continue;
-    glm::vec3 carried{0.0f};
-    if (!job.carry.empty()) {
-      const CarryWeights& weights = job.carry[v];
-      for (std::size_t i = 0; i < 4; ++i) {
-        const float* row = job.moved.data() + 12 * static_cast<std::size_t>(weights.carrier[i]);
-        carried += weights.weight[i] * glm::vec3(row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3],
-                                                 row[4] * p.x + row[5] * p.y + row[6] * p.z + row[7],
-                                                 row[8] * p.x + row[9] * p.y + row[10] * p.z + row[11]);
-      }
-    }
-    add(p, carried);
+    add(p, carried(job.carry, job.moved, v, p));
     job.before[v] = p;
     add(p, job.h * job.keep * place(job.velocity[v]));
     if (job.pull > 0.0f) add(p, job.pull * (place(job.anchors[v]) - place(p)));
@@ -188,6 +199,7 @@ const SurfaceKernels& surface_reference_kernels() {
   static const SurfaceKernels kKernels{.project_hinges = project_hinges,
                                        .project_volume = project_volume,
                                        .measure_volume = measure_volume,
+                                       .carry = carry,
                                        .predict = predict,
                                        .take_velocities = take_velocities,
                                        .measure_hinges = measure_hinges,

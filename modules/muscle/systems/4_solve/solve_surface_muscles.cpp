@@ -121,13 +121,13 @@ void solve_surface_muscles(ecs::View<const SurfaceMuscle, SurfaceState, SurfaceC
                            .points = state.points,
                            .velocity = state.velocity};
     if (jump || !state.enabled) {
-      carry_rest_shape(step);
+      carry_rest_shape(step, state.scratch);
       if (!state.enabled) return contacts.now.clear();
     }
     if (!(time->step > 0.0f)) return;
     state.volume = step_surface(step, state.scratch);
     if (!is_sound(asset, state.points)) {
-      carry_rest_shape(step);
+      carry_rest_shape(step, state.scratch);
       ++state.fallbacks;
     }
     report_contacts(muscle, state, contacts);
