@@ -13,6 +13,7 @@
 #include "modules/muscle/asset/surface/check_surface.hpp"
 #include "modules/muscle/asset/surface/pack_hinges.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
+#include "modules/muscle/asset/surface/surface_tree.hpp"
 #include "modules/muscle/kernels/surface/surface_kernels.hpp"
 
 namespace fascicle::muscle {
@@ -178,6 +179,8 @@ Result<std::shared_ptr<const SurfaceAsset>> build_surface_asset(const SurfaceMus
                                               .points = rest,
                                               .gradient = scratch,
                                               .rings = &asset->rings});
+
+  asset->tree = std::make_shared<const SurfaceTree>(build_surface_tree(*asset));
 
   if (!description.driver.empty()) {
     const auto muscle = static_cast<std::uint32_t>(find_muscle(*muscles, description.driver));

@@ -24,6 +24,7 @@
 namespace fascicle::muscle {
 
 struct MuscleAsset;
+struct SurfaceTree;
 
 struct alignas(16) SurfacePoint {
   float x = 0.0f, y = 0.0f, z = 0.0f;  // m
@@ -100,6 +101,7 @@ struct SurfaceAsset {
   std::uint32_t bone_count = 0;                 // matrices that the character must have
   std::vector<FibreLine> fibres;                // as described
   std::string driver;
+  std::shared_ptr<const SurfaceTree> tree;      // for contacts with itself and with other muscles
 
   std::size_t triangle_count() const { return triangles.size() / 3; }
 };

@@ -31,6 +31,8 @@ constexpr float kThinnest = 0.5f;
 constexpr float kDeepest = 4.0f;
 // Contact distances beside a triangle at which it counts, beside half of the margin.
 constexpr float kBeside = 0.25f;
+// Contact distances: margins. And for how many steps like the present one they are to do.
+constexpr float kWidestMargin = 1.5f, kNarrowestMargin = 0.4f, kStepsAhead = 3.0f;
 // Of the reach: heights that are worked out in another order round differently.
 constexpr float kSlack = 1.01f;
 // m: the places of two muscles that overlap at rest are rounded when they are brought into one frame.
@@ -320,6 +322,25 @@ void find_pairs(const PairsJob& job, SurfacePairs& pairs) {
   search.run();
   std::sort(pairs.pairs.begin(), pairs.pairs.end(), comes_before);
   if (search.full()) ++pairs.overflows;
+}
+
+void keep_pairs(const PairsJob& job, float nearer, SurfaceBoxes& first_boxes, SurfaceBoxes* second_boxes,
+                SurfacePairs& pairs) {
+  pairs.spare -= nearer;
+  if (pairs.spare >= 0.0f) return;
+  const float most = kWidestMargin * job.contact_distance, least = kNarrowestMargin * job.contact_distance;
+  PairsJob now = job;
+  now.margin = std::clamp(kStepsAhead * nearer, least, most);
+  place_boxes(*job.first.tree, *job.first.asset, job.first.points, first_boxes);
+  if (second_boxes != nullptr) place_boxes(*job.second.tree, *job.second.asset, job.second.points, *second_boxes);
+  find_pairs(now, pairs);
+  pairs.spare = now.margin - nearer;
+}
+
+void forget_pairs(SurfacePairs& pairs) {
+  pairs.pairs.clear();
+  pairs.last.clear();
+  pairs.spare = -1.0f;
 }
 
 }  // namespace fascicle::muscle

@@ -48,6 +48,7 @@ struct SurfacePairs {
   std::vector<SurfacePair> last;   // of the step before
   std::size_t capacity = 0;        // pairs there is room for
   std::uint64_t overflows = 0;     // steps that wanted more: lay_out_pairs' `capacity` is too small
+  float spare = -1.0f;             // m: how much nearer anything may still come until pairs must be found anew
   std::uint32_t pushed = 0;        // by the last project_pairs
   float deepest = 0.0f;            // m: the furthest that it pushed
 };
@@ -76,6 +77,16 @@ struct PairsJob {
 
 // Lists the pairs of this step. What has been paired keeps its memory.
 void find_pairs(const PairsJob& job, SurfacePairs& pairs);
+
+// The same only when it is time. `nearer` (m): how much nearer a vertex and a triangle may come during this step; the
+// margin is chosen here, so that pairs serve for some steps where things are slow, and for good where all is at rest.
+// What comes nearer in a step than the margin ever is (half as much again as the contact distance) may be missed.
+// Boxes are placed when they are needed; `first_boxes` and `second_boxes` (null: with itself) are the job's own.
+void keep_pairs(const PairsJob& job, float nearer, SurfaceBoxes& first_boxes, SurfaceBoxes* second_boxes,
+                SurfacePairs& pairs);
+
+// After the muscles have been put elsewhere: no pair is remembered.
+void forget_pairs(SurfacePairs& pairs);
 
 // Pushes apart what is too near, once. With no pair in reach it returns at once.
 void project_pairs(const PairsJob& job, SurfacePairs& pairs);
