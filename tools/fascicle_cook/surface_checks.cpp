@@ -14,17 +14,22 @@ using Figure = std::function<double(const SurfaceStepFigures&)>;
 
 constexpr std::uint64_t kFlexed = 100, kRested = 300;  // steps
 
+double off_one(double ratio) { return std::abs(ratio - 1.0); }
+
 class Checker {
  public:
-  explicit Checker(const SurfaceMuscleRun& run) : run_(run) {
-    for (std::size_t i = 0; i < run.steps.size() && through_ == 0; ++i) {
-      if (!(run.steps[i].bone_depth_max <= kThroughBone)) through_ = i + 1;
+  Checker(const SurfaceMuscleRun& run, bool keeps_volume) : run_(run) {
+    for (std::size_t i = 0; i < run.steps.size() && void_from_ == 0; ++i) {
+      const SurfaceStepFigures& step = run.steps[i];
+      if (!(step.bone_depth_max <= kVoidDepth)) why_ = "it is deep in a bone";
+      if (!(step.attachment_error_max <= kVoidAttachment)) why_ = "it does not follow its bones";
+      if (keeps_volume && !(off_one(step.volume_ratio) <= kVoidVolume)) why_ = "its volume is lost";
+      if (!why_.empty()) void_from_ = i + 1;
     }
   }
 
-  // Of the figure's largest value over all steps. `of_shape`: it says nothing of a muscle that went through bone.
-  void at_every_step(const std::string& what, double limit, const char* unit, const Figure& figure,
-                     bool of_shape = true) {
+  // Of the figure's largest value over all steps.
+  void at_every_step(const std::string& what, double limit, const char* unit, const Figure& figure) {
     SurfaceCheck check = make(what + " at every step", limit, unit);
     check.reached = !run_.steps.empty();
     check.found = std::numeric_limits<double>::lowest();
@@ -35,7 +40,7 @@ class Checker {
       check.step = i + 1;
       if (!std::isfinite(found)) break;
     }
-    decide(std::move(check), limit, of_shape ? run_.steps.size() : 0);
+    decide(std::move(check), limit, run_.steps.size());
   }
 
   void at_step(std::uint64_t step, const std::string& what, double limit, const char* unit, const Figure& figure) {
@@ -65,22 +70,21 @@ class Checker {
     return check;
   }
 
-  // `last`: the step up to which it must not have gone through a bone.
+  // `last`: the step up to which the run must not be void.
   void decide(SurfaceCheck check, double limit, std::uint64_t last) {
     check.passed = check.reached && check.found <= limit;
-    if (check.passed && through_ != 0 && through_ <= last) {
+    if (check.passed && void_from_ != 0 && void_from_ <= last) {
       check.passed = false;
-      check.why = fmt::format("carried through a bone at step {}", through_);
+      check.why = fmt::format("void: {} at step {}", why_, void_from_);
     }
     checks_.push_back(std::move(check));
   }
 
   const SurfaceMuscleRun& run_;
-  std::uint64_t through_ = 0;  // the first step at which it was deep in a bone; 0: none
+  std::uint64_t void_from_ = 0;  // 0: the run is not void
+  std::string why_;
   std::vector<SurfaceCheck> checks_;
 };
-
-double off_one(double ratio) { return std::abs(ratio - 1.0); }
 
 void check_fibres(Checker& checker, const SurfaceMuscleRun& run) {
   if (run.fibre_rest.empty()) return;
@@ -98,8 +102,9 @@ std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceM
   const auto bent = [](const SurfaceStepFigures& s) { return s.dihedral_mean; };
   const auto turned = [](const SurfaceStepFigures& s) { return s.turned; };
   const auto volume = [](const SurfaceStepFigures& s) { return off_one(s.volume_ratio); };
-  Checker checker(run);
-  checker.at_every_step("deepest point in a bone", 0.5, " mm", [](const auto& s) { return s.bone_depth_max; }, false);
+  Checker checker(run, !is("box"));
+  checker.at_every_step("steps that fell back to the carried shape, so far,", 0.0, "", [](const auto& s) { return s.fallbacks; });
+  checker.at_every_step("deepest point in a bone", 0.5, " mm", [](const auto& s) { return s.bone_depth_max; });
   if (!run.asset->attached.empty()) {
     checker.at_every_step("attachment error", 0.1, " mm", [](const auto& s) { return s.attachment_error_max; });
   }

@@ -10,9 +10,12 @@
 
 namespace fascicle::cook {
 
-// A muscle that has been deeper than this in a bone was carried through it. Its shape then says nothing about the
-// solver: one that is only carried, or left where it is, keeps its shape perfectly.
-inline constexpr double kThroughBone = 2.0;  // mm
+// A run is void from the step on at which the muscle is deeper than this in a bone, has lost or gained this much of its
+// volume (not the box, which has no room for it), or an attached vertex is this far from its bone. A muscle that is only
+// carried by its bones, or left where it is, comes back to its shape by itself: that says nothing about the solver.
+inline constexpr double kVoidDepth = 2.0;       // mm
+inline constexpr double kVoidVolume = 0.05;     // of the volume at rest
+inline constexpr double kVoidAttachment = 2.0;  // mm
 
 struct SurfaceCheck {
   std::string what;
@@ -21,7 +24,7 @@ struct SurfaceCheck {
   std::uint64_t step = 0;    // at which that was found
   bool reached = true;       // false: the run ended before the step that is asked about
   bool passed = false;
-  std::string why;           // where it failed by something else than its limit
+  std::string why;           // where it fails although it is within its limit
 };
 
 // The checks of the scene, by its name: those of `box`, of `gluteus` and of `iliacus` are the published scenes'. Any

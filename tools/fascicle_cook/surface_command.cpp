@@ -30,7 +30,8 @@ struct Options {
 
 SurfaceRunOptions run_options(const Options& options) {
   SurfaceRunOptions run{.frames = options.frames, .workers = options.threads};
-  run.solver = options.solver != "off";
+  if (options.solver == "off") run.solver = SurfaceSolver::kOff;
+  if (options.solver == "frozen") run.solver = SurfaceSolver::kFrozen;
   for (const std::string& part : options.without) {
     if (part == "edges") run.edges = false;
     if (part == "angles") run.angles = false;
@@ -91,8 +92,9 @@ void add_surface(CLI::App& program, Command& chosen) {
   command->add_option("--frames", options->frames, "Steps (the scene's)")->check(CLI::Range(1, 1000000));
   command->add_option("--csv", options->csv, "Write the figures of every step to this file");
   command->add_option("--plots", options->plots, "Write plots over the steps as SVG to this folder");
-  command->add_option("--solver", options->solver, "off: muscles are only carried by their bones")
-      ->check(CLI::IsMember({"on", "off"}));
+  command->add_option("--solver", options->solver,
+                      "off: muscles are only carried by their bones; frozen: they stay as they are at rest")
+      ->check(CLI::IsMember({"on", "off", "frozen"}));
   command->add_option("--without", options->without, "Switch parts of the solver off: edges, angles, volume, bones")
       ->delimiter(',')
       ->check(CLI::IsMember({"edges", "angles", "volume", "bones"}));

@@ -47,7 +47,7 @@ std::vector<SurfacePlot> surface_plots(const SurfaceRun& run, const SurfaceMuscl
   const auto& s = muscle.settings;
   const std::string subtitle =
       fmt::format("{}; {} substeps of 1/{:g} s{}", run.scene, s.substeps,
-                  static_cast<double>(run.step_hz) * s.substeps, run.options.solver ? "" : "; solver off");
+                  static_cast<double>(run.step_hz) * s.substeps, run.options.solver == SurfaceSolver::kOn ? "" : "; solver off");
   std::vector<SurfacePlot> plots;
   const auto add = [&](const char* what, const std::string& title, const std::vector<Chart>& charts) {
     plots.push_back({what, draw_charts(muscle.asset->name + ": " + title, subtitle, charts)});

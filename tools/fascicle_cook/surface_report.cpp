@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "modules/muscle/asset/surface/describe_settings.hpp"
+
 namespace fascicle::cook {
 namespace {
 
@@ -76,13 +78,10 @@ std::vector<std::uint64_t> table_steps(std::uint64_t count) {
   return steps;
 }
 
-std::string onoff(bool on) { return on ? "on" : "OFF"; }
-
 }  // namespace
 
 std::string surface_configuration(const SurfaceRun& run, const SurfaceMuscleRun& muscle) {
   const muscle::SurfaceAsset& asset = *muscle.asset;
-  const muscle::SurfaceSettings& s = muscle.settings;
   std::string text = fmt::format(
       "{} in {}: {} vertices, {} triangles, {} edges, volume {:.1f} cm3, mean edge {:.2f} mm\n", asset.name, run.scene,
       asset.vertex_count, asset.triangle_count(), asset.hinges.size(), 1e6 * asset.volume,
@@ -92,20 +91,13 @@ std::string surface_configuration(const SurfaceRun& run, const SurfaceMuscleRun&
                         muscle.bones[a], asset.attachments[a].count);
   }
   if (asset.attachments.empty()) text += "  attached to nothing\n";
-  text += fmt::format(
-      "  {} steps of 1/{:g} s, {} substeps; density {:g} kg/m3; compliance: stretch {:g} m/N, bend {:g} "
-      "rad/(N m), volume {:g} m3/Pa; along fibres {:g}; damping {:g}/s, viscosity {:g}/s\n",
-      run.options.frames, run.step_hz, s.substeps, s.density, s.stretch_compliance, s.bend_compliance,
-      s.volume_compliance, s.along_fibres, s.damping, s.viscosity);
-  text += fmt::format(
-      "  bones {} ({} of them, kept {:g} mm away, friction {:g}), itself {}, other muscles {}; {} fibres; simd {}, {} "
-      "worker{}\n",
-      onoff(s.collide_with_bones), asset.bones.size(), 1e3 * static_cast<double>(s.contact_distance), s.friction,
-      onoff(s.collide_with_itself), onoff(s.collide_with_muscles), muscle.fibre_rest.size(), run.simd,
-      run.options.workers, run.options.workers == 1 ? "" : "s");
+  text += fmt::format("  {} steps of 1/{:g} s, {}\n", run.options.frames, run.step_hz, to_text(muscle.settings));
+  text += fmt::format("  {} bones to collide with, {} fibres; simd {}, {} worker{}\n", asset.bones.size(),
+                      muscle.fibre_rest.size(), run.simd, run.options.workers, run.options.workers == 1 ? "" : "s");
   const SurfaceRunOptions& o = run.options;
-  if (!o.solver) {
-    text += "  SOLVER OFF: carried by its bones only\n";
+  if (o.solver != SurfaceSolver::kOn) {
+    text += o.solver == SurfaceSolver::kOff ? "  SOLVER OFF: carried by its bones only\n"
+                                            : "  FROZEN: it stays as it is at rest\n";
   } else if (!o.edges || !o.angles || !o.volume || !o.bones) {
     text += fmt::format("  WITHOUT:{}{}{}{}\n", o.edges ? "" : " edges", o.angles ? "" : " angles",
                         o.volume ? "" : " volume", o.bones ? "" : " bones");

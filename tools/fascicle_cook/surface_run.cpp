@@ -29,7 +29,9 @@ std::shared_ptr<const SurfaceAsset> softened(const SurfaceAsset& asset, const Su
 
 void apply(const SurfaceRunOptions& options, ecs::World& world) {
   world.view<SurfaceMuscle, SurfaceState>().each([&](SurfaceMuscle& muscle, SurfaceState& state) {
-    state.enabled = options.solver;
+    state.enabled = options.solver == SurfaceSolver::kOn;
+    // A muscle whose bones are not all there is left alone.
+    if (options.solver == SurfaceSolver::kFrozen) muscle.rest_bones.emplace_back(1.0f);
     if (!options.volume) muscle.settings.volume_compliance = kNoStiffness;
     if (!options.bones) muscle.settings.collide_with_bones = false;
     if (!options.edges || !options.angles) muscle.asset = softened(*muscle.asset, options);

@@ -12,11 +12,17 @@
 
 namespace fascicle::cook {
 
+enum class SurfaceSolver {
+  kOn,
+  kOff,     // muscles are only carried by their bones
+  kFrozen,  // they stay as they are at rest
+};
+
 struct SurfaceRunOptions {
   std::uint64_t frames = 0;  // steps; 0: the scene's
   int workers = 1;
-  // Switched off, muscles are only carried by their bones. Or one part of it alone is switched off.
-  bool solver = true;
+  SurfaceSolver solver = SurfaceSolver::kOn;
+  // Parts of it that are switched off alone.
   bool edges = true, angles = true, volume = true, bones = true;
 };
 

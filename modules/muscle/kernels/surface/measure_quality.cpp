@@ -12,6 +12,8 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr double kNearRest = 1.0;  // rad
+
 glm::dvec3 place(const SurfacePoint& point) { return {point.x, point.y, point.z}; }
 
 // To -pi..pi.
@@ -79,10 +81,11 @@ void measure_angles(const SurfaceAsset& asset, std::span<const SurfacePoint> poi
     const double rest = static_cast<double>(hinge.angle);
     const double angle = angle_of(place(points[hinge.vertex[0]]), place(points[hinge.vertex[1]]),
                                   place(points[hinge.vertex[2]]), place(points[hinge.vertex[3]]));
+    const double off_rest = wrap(angle - rest), change = std::abs(off_rest);
     const double before = static_cast<double>(quality.angles[i]);
-    const double followed = before + wrap(angle - before);
+    // Near rest it is right side out, whichever way it came.
+    const double followed = change < kNearRest ? rest + off_rest : before + wrap(angle - before);
     quality.angles[i] = static_cast<float>(followed);
-    const double change = std::abs(wrap(angle - rest));
     sum += change;
     most = std::max(most, change);
     largest = std::max(largest, std::abs(angle));

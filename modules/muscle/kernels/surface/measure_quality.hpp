@@ -16,8 +16,8 @@ inline constexpr double kFoldedAngle = 2.967;  // rad
 
 // `points`: at least the asset's vertices, simulation's frame. `bones`: rest space to the simulation's frame, by bone;
 // attached vertices whose bone is not among them do not count. Angles are followed from call to call, so that an edge
-// whose triangles swing through each other is told from one that is bent the other way: `quality` must have been
-// used for this muscle alone. Allocates in the first call only.
+// whose triangles swing through each other is told from one that is bent the other way, until it is within a radian of
+// its rest angle again: `quality` must have been used for this muscle alone. Allocates in the first call only.
 void measure_quality(const SurfaceAsset& asset, std::span<const SurfacePoint> points, std::span<const glm::mat4> bones,
                      SurfaceQuality& quality);
 

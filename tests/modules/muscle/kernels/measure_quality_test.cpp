@@ -147,6 +147,11 @@ TEST(MeasureQuality, TrianglesThatSwingThroughEachOther) {
   bend(1.0);
   EXPECT_EQ(quality.turned, 0u);
   EXPECT_NEAR(quality.dihedral_change_max, 1.0, 1e-6);
+  // And all the way round.
+  for (double angle = 1.0; angle < 5.2; angle += 0.6) bend(angle);
+  EXPECT_EQ(quality.turned, 1u);
+  bend(5.7);
+  EXPECT_EQ(quality.turned, 0u);
 }
 
 // Sharp at rest is not folded.
