@@ -10,6 +10,7 @@
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/components/musculature.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
+#include "modules/muscle/join_neighbours.hpp"
 
 namespace fascicle::muscle {
 
@@ -56,12 +57,14 @@ ecs::Entity spawn_surface_muscle(ecs::World& world, ecs::Entity character, std::
   world.add(entity, std::move(state));
   world.add(entity, std::move(contacts));
   world.add(entity, std::move(drawn));
+  join_neighbours(world, entity);
   return entity;
 }
 
 void despawn_surface_muscle(ecs::World& world, ecs::Entity muscle) {
   if (world.try_get<SurfaceMuscle>(muscle) == nullptr) return;
   if (CostLedger* ledger = world.try_resource<CostLedger>()) ledger->remove_owner(muscle);
+  leave_neighbours(world, muscle);
   world.destroy(muscle);
 }
 

@@ -196,6 +196,7 @@ void begin_step(const SurfaceStep& step, SurfaceScratch& scratch) {
   const float fastest = speed_of_fastest(step);
   find_near(step, fastest, scratch);
   scratch.nearer = kReachPerSpeed * fastest * step.step + furthest_carried(step);
+  scratch.boxes.placed = false;
   if (!touches_itself(step)) return;
   make_room_for_itself(*step.asset, scratch);
   keep_pairs(pairs_with_itself(step, scratch), scratch.nearer, scratch.boxes, nullptr, scratch.itself);

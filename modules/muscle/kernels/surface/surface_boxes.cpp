@@ -50,6 +50,7 @@ void lay_out_boxes(const SurfaceTree& tree, const SurfaceAsset& asset, bool itse
 
 void place_boxes(const SurfaceTree& tree, const SurfaceAsset& asset, std::span<const SurfacePoint> points,
                  SurfaceBoxes& boxes) {
+  boxes.placed = true;
   const bool itself = !boxes.normal_ranges.empty();
   if (itself) place_normals(asset, points, boxes);
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {

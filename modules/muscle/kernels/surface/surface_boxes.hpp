@@ -17,6 +17,7 @@ struct alignas(16) SurfaceNormal {
 };
 
 struct SurfaceBoxes {
+  bool placed = false;                         // in this step; begin_step clears it
   AlignedVector<SurfaceRange> boxes;           // m, by node
   AlignedVector<SurfaceRange> normal_ranges;   // by node; empty where the muscle does not collide with itself
   AlignedVector<SurfaceNormal> triangle_normals;

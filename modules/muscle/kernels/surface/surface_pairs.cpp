@@ -331,10 +331,18 @@ void keep_pairs(const PairsJob& job, float nearer, SurfaceBoxes& first_boxes, Su
   const float most = kWidestMargin * job.contact_distance, least = kNarrowestMargin * job.contact_distance;
   PairsJob now = job;
   now.margin = std::clamp(kStepsAhead * nearer, least, most);
-  place_boxes(*job.first.tree, *job.first.asset, job.first.points, first_boxes);
-  if (second_boxes != nullptr) place_boxes(*job.second.tree, *job.second.asset, job.second.points, *second_boxes);
+  if (!first_boxes.placed) place_boxes(*job.first.tree, *job.first.asset, job.first.points, first_boxes);
+  if (second_boxes != nullptr && !second_boxes->placed) {
+    place_boxes(*job.second.tree, *job.second.asset, job.second.points, *second_boxes);
+  }
   find_pairs(now, pairs);
   pairs.spare = now.margin - nearer;
+  if (second_boxes == nullptr || first_boxes.boxes.empty() || second_boxes->boxes.empty()) return;
+  // Muscles that are far apart need not be asked for longer.
+  const SurfaceRange &a = first_boxes.boxes[0], b = moved(second_boxes->boxes[0], job.second_to_first);
+  float gap = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) gap = std::max({gap, a.lower[k] - b.upper[k], b.lower[k] - a.upper[k]});
+  pairs.spare = std::max(pairs.spare, gap - job.contact_distance - nearer);
 }
 
 void forget_pairs(SurfacePairs& pairs) {

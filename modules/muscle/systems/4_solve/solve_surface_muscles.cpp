@@ -1,5 +1,6 @@
 #include "modules/muscle/systems/4_solve/solve_surface_muscles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,7 +9,9 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/ecs/each_in_parallel.hpp"
+#include "engine/parallel/for_range.hpp"
 #include "modules/muscle/systems/4_solve/section_frame.hpp"
+#include "modules/muscle/systems/4_solve/touch_neighbours.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -89,50 +92,141 @@ void report_contacts(const SurfaceMuscle& muscle, const SurfaceState& state, Sur
   }
 }
 
-}  // namespace
+using Muscles = ecs::View<const SurfaceMuscle, SurfaceState, SurfaceContacts>;
+using Characters = ecs::View<const BoneMatrices, SurfaceNeighbours>;
+using Musculatures = ecs::View<const Musculature, const ActionLines, const CrossSections>;
 
-void solve_surface_muscles(ecs::View<const SurfaceMuscle, SurfaceState, SurfaceContacts> muscles,
-                           ecs::View<const BoneMatrices> characters,
-                           ecs::View<const Musculature, const ActionLines, const CrossSections> musculatures,
-                           ecs::Resource<const FrameTime> time, ecs::Resource<const MuscleSettings> settings,
-                           ecs::Resource<const CostLedger> ledger) {
-  const SystemCosts costs = ledger->system("solve_surface_muscles");
-  const auto solve = [&](ecs::Entity entity, const SurfaceMuscle& muscle, SurfaceState& state,
-                         SurfaceContacts& contacts) {
-    const ScopedCost timer(costs.row(entity), ScopedCost::kWhole);
-    const SurfaceAsset& asset = *muscle.asset;
+// One step of the system; all that its loops share.
+struct Solve {
+  Muscles muscles;
+  Characters characters;
+  Musculatures musculatures;
+  const SurfaceKernels& kernels;
+  float time = 0.0f;  // s
+  SystemCosts costs;
+
+  SurfaceStep step_of(const SurfaceMuscle& muscle, SurfaceState& state) const {
+    return {.asset = muscle.asset.get(), .kernels = &kernels, .settings = muscle.settings, .step = time,
+            .attachments = state.attachment_motion, .carriers = state.carrier_motion, .bones = state.bone_motion,
+            .fields = state.fields, .rest_to_bone = state.rest_to_bone, .points = state.points,
+            .velocity = state.velocity};
+  }
+
+  // Where everything has moved that the muscle depends on; whether it is then to be solved.
+  bool prepare(const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
     const BoneMatrices* bones = characters.try_get<const BoneMatrices>(muscle.character);
-    if (!has_bones(muscle, bones)) return;
+    if (!has_bones(muscle, bones)) return false;
     const bool jump = !state.started || state.teleport_count != bones->teleport_count;
     state.teleport_count = bones->teleport_count;
     state.started = true;
     follow_bones(muscle, *bones, state);
     follow_carriers(muscle, musculatures, jump, state);
+    if (jump || !state.enabled) carry_rest_shape(step_of(muscle, state), state.scratch);
+    if (!state.enabled) contacts.now.clear();
+    return state.enabled && time > 0.0f;
+  }
 
-    const SurfaceStep step{.asset = &asset,
-                           .kernels = &surface_kernels(settings->simd),
-                           .settings = muscle.settings,
-                           .step = time->step,
-                           .attachments = state.attachment_motion,
-                           .carriers = state.carrier_motion,
-                           .bones = state.bone_motion,
-                           .fields = state.fields,
-                           .rest_to_bone = state.rest_to_bone,
-                           .points = state.points,
-                           .velocity = state.velocity};
-    if (jump || !state.enabled) {
-      carry_rest_shape(step, state.scratch);
-      if (!state.enabled) return contacts.now.clear();
-    }
-    if (!(time->step > 0.0f)) return;
-    state.volume = step_surface(step, state.scratch);
-    if (!is_sound(asset, state.points)) {
-      carry_rest_shape(step, state.scratch);
+  void finish(const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
+    if (!is_sound(*muscle.asset, state.points)) {
+      carry_rest_shape(step_of(muscle, state), state.scratch);
       ++state.fallbacks;
     }
     report_contacts(muscle, state, contacts);
-  };
-  ecs::each_in_parallel(muscles, 1, solve);
+  }
+
+  // Whether it takes its substeps together with others.
+  bool has_neighbours(const SurfaceMuscle& muscle) const {
+    const SurfaceNeighbours* neighbours = characters.try_get<SurfaceNeighbours>(muscle.character);
+    return neighbours != nullptr && !neighbours->pairs.empty() && muscle.settings.collide_with_muscles;
+  }
+
+  void alone(ecs::Entity entity, const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
+    if (has_neighbours(muscle)) return;
+    const ScopedCost timer(costs.row(entity), ScopedCost::kWhole);
+    if (!prepare(muscle, state, contacts)) return;
+    state.volume = step_surface(step_of(muscle, state), state.scratch);
+    finish(muscle, state, contacts);
+  }
+
+  // Calls f(index, muscle, step, state, contacts) for the muscles that are solved, side by side.
+  template <class F>
+  void each_solved(SurfaceNeighbours& neighbours, std::uint32_t substeps, F&& f) const {
+    parallel::for_range(neighbours.muscles.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (neighbours.solved[i] == 0) continue;
+        const ScopedCost timer(costs.row(neighbours.muscles[i]), ScopedCost::kWhole);
+        const SurfaceMuscle& muscle = muscles.get<SurfaceMuscle>(neighbours.muscles[i]);
+        SurfaceState& state = muscles.get<SurfaceState>(neighbours.muscles[i]);
+        SurfaceStep step = step_of(muscle, state);
+        step.settings.substeps = substeps;
+        f(muscle, step, state);
+      }
+    });
+  }
+
+  // Pairs one after the other: two may share a muscle.
+  template <class F>
+  void each_pair(SurfaceNeighbours& neighbours, F&& f) const {
+    for (NeighbourPair& pair : neighbours.pairs) {
+      if (neighbours.solved[pair.first] == 0 || neighbours.solved[pair.second] == 0) continue;
+      const ecs::Entity first = neighbours.muscles[pair.first], second = neighbours.muscles[pair.second];
+      const ScopedCost timer(costs.row(first), ScopedCost::kWhole);
+      f(TouchingMuscle{&muscles.get<SurfaceMuscle>(first), &muscles.get<SurfaceState>(first)},
+        TouchingMuscle{&muscles.get<SurfaceMuscle>(second), &muscles.get<SurfaceState>(second)}, pair);
+    }
+  }
+
+  // A character's muscles that may touch each other, by the most substeps that one of them asks for.
+  void together(SurfaceNeighbours& neighbours) const {
+    std::uint32_t substeps = 1;
+    for (std::size_t i = 0; i < neighbours.muscles.size(); ++i) {
+      const ecs::Entity entity = neighbours.muscles[i];
+      neighbours.solved[i] = 0;
+      if (!muscles.contains(entity)) continue;
+      const SurfaceMuscle& muscle = muscles.get<SurfaceMuscle>(entity);
+      if (!has_neighbours(muscle)) continue;
+      if (!prepare(muscle, muscles.get<SurfaceState>(entity), muscles.get<SurfaceContacts>(entity))) continue;
+      neighbours.solved[i] = 1;
+      substeps = std::max(substeps, muscle.settings.substeps);
+    }
+    each_solved(neighbours, substeps, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+      begin_step(step, state.scratch);
+    });
+    each_pair(neighbours, find_touching);
+    for (std::uint32_t i = 0; i < substeps; ++i) {
+      each_solved(neighbours, substeps, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+        move_and_constrain(step, i, state.scratch);
+      });
+      each_pair(neighbours, push_apart);
+      each_solved(neighbours, substeps, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+        finish_substep(step, i, state.scratch);
+      });
+    }
+    each_solved(neighbours, substeps, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+      state.volume = end_step(step, state.scratch);
+    });
+    for (std::size_t i = 0; i < neighbours.muscles.size(); ++i) {
+      if (neighbours.solved[i] == 0) continue;
+      finish(muscles.get<SurfaceMuscle>(neighbours.muscles[i]), muscles.get<SurfaceState>(neighbours.muscles[i]),
+             muscles.get<SurfaceContacts>(neighbours.muscles[i]));
+    }
+  }
+};
+
+}  // namespace
+
+void solve_surface_muscles(ecs::View<const SurfaceMuscle, SurfaceState, SurfaceContacts> muscles,
+                           ecs::View<const BoneMatrices, SurfaceNeighbours> characters,
+                           ecs::View<const Musculature, const ActionLines, const CrossSections> musculatures,
+                           ecs::Resource<const FrameTime> time, ecs::Resource<const MuscleSettings> settings,
+                           ecs::Resource<const CostLedger> ledger) {
+  const Solve solve{muscles, characters, musculatures, surface_kernels(settings->simd), time->step,
+                    ledger->system("solve_surface_muscles")};
+  ecs::each_in_parallel(muscles, 1, [&](ecs::Entity entity, const SurfaceMuscle& muscle, SurfaceState& state,
+                                        SurfaceContacts& contacts) { solve.alone(entity, muscle, state, contacts); });
+  ecs::each_in_parallel(characters, 1, [&](const BoneMatrices&, SurfaceNeighbours& neighbours) {
+    if (!neighbours.pairs.empty()) solve.together(neighbours);
+  });
 }
 
 }  // namespace fascicle::muscle
