@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "game/screen.hpp"
@@ -13,9 +14,14 @@ namespace fascicle::game {
 
 class ContactSheet {
  public:
-  // Takes these frames (from 1, rising) from `sides` directions around the camera's target, each as `view` shows it;
-  // `with_skin`: all of it twice.
-  ContactSheet(const DrawView& view, std::vector<std::uint64_t> frames, int sides, bool with_skin);
+  struct Layout {
+    std::vector<std::uint64_t> frames;  // from 1, rising
+    int sides = 4;                      // directions around the camera's target
+    bool with_skin = false;             // all of it twice
+    int width = 300, height = 420;      // of one picture, pixels
+  };
+  // Pictures as `view` shows them.
+  ContactSheet(const DrawView& view, Layout layout) : view_(view), layout_(std::move(layout)), rows_(row_count()) {}
 
   // True when frame `frame` (from 1) belongs on the sheet.
   bool wants(std::uint64_t frame) const;
@@ -26,10 +32,12 @@ class ContactSheet {
   Result<std::size_t> write(const std::filesystem::path& file) const;
 
  private:
+  std::size_t row_count() const {
+    return static_cast<std::size_t>(layout_.with_skin ? 2 * layout_.sides : layout_.sides);
+  }
+
   DrawView view_;
-  std::vector<std::uint64_t> frames_;
-  int sides_;
-  bool with_skin_;
+  Layout layout_;
   std::vector<std::vector<Image>> rows_;  // by side with the skin, if it is wanted, then by side without
 };
 

@@ -70,8 +70,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--hash", options.hash, "Print a hash of the last frame's state");
   app.add_flag("--schedule", options.print_schedule, "Print the systems, their order and what they access, and stop");
   app.add_flag("--schedule-dot", options.print_dot, "The same as a graph for Graphviz");
-  app.add_option("--width", options.width, "Picture or window width, pixels")->check(CLI::Range(16, 8192));
-  app.add_option("--height", options.height, "Picture or window height, pixels")->check(CLI::Range(16, 8192));
+  app.add_option("--width", options.width, "Picture or window width, pixels; of each on a contact sheet")->check(CLI::Range(16, 8192));
+  app.add_option("--height", options.height, "Picture or window height, pixels; of each on a contact sheet")->check(CLI::Range(16, 8192));
 
   try {
     app.parse(argc, argv);
@@ -113,6 +113,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   if (options.contact_sheet_file.empty() && app.count("--sheet-frames") + app.count("--sheet-sides") > 0) {
     refuse("--sheet-frames and --sheet-sides are of a contact sheet; add --contact-sheet FILE");
   }
+  if (app.count("--width") > 0) options.sheet_width = options.width;
+  if (app.count("--height") > 0) options.sheet_height = options.height;
   std::sort(options.sheet_frames.begin(), options.sheet_frames.end());
   options.sheet_frames.erase(std::unique(options.sheet_frames.begin(), options.sheet_frames.end()),
                              options.sheet_frames.end());

@@ -30,6 +30,7 @@ struct GameOptions {
   std::string contact_sheet_file;        // pictures of frames from several sides, with and without skin
   std::vector<std::uint64_t> sheet_frames;  // those on it, rising; empty: eight, spread over the run
   int sheet_sides = 4;                   // it shows
+  int sheet_width = 300, sheet_height = 420;  // pixels of one of its pictures: width and height where they are given
   bool show_collision = false;           // contacts, tags and depths in the picture, and no skin over them
   bool show_fibres = false;              // of surface muscles, which are translucent then
   bool detail = false;                   // statistics per character and muscle

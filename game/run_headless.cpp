@@ -85,8 +85,12 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
     const auto& characters = simulation.characters();
     const bool any_skin = std::any_of(characters.begin(), characters.end(),
                                       [](const SpawnedCharacter& character) { return !character.skins.empty(); });
-    sheet.emplace(draw_view, options.sheet_frames.empty() ? spread_frames(frames) : options.sheet_frames,
-                  options.sheet_sides, draw_view.skins && any_skin);
+    sheet.emplace(draw_view, ContactSheet::Layout{
+                                 .frames = options.sheet_frames.empty() ? spread_frames(frames) : options.sheet_frames,
+                                 .sides = options.sheet_sides,
+                                 .with_skin = draw_view.skins && any_skin,
+                                 .width = options.sheet_width,
+                                 .height = options.sheet_height});
   }
   RunRecorder recorder(options, simulation, frames);
   Progress progress(frames);

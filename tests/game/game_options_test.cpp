@@ -76,6 +76,8 @@ TEST(GameOptions, ASheetsFramesAndSidesMayBeChosen) {
   ASSERT_FALSE(chosen.exit_status.has_value());
   EXPECT_EQ(chosen.options.sheet_frames, (std::vector<std::uint64_t>{1, 50, 300}));
   EXPECT_EQ(chosen.options.sheet_sides, 1);
+  EXPECT_EQ(chosen.options.sheet_height, plain.options.sheet_height);
+  EXPECT_EQ(parse({"--headless", "--contact-sheet", "sheet.png", "--width", "77"}).options.sheet_width, 77);
 }
 
 TEST(GameOptions, FibresAreShownOnRequest) {

@@ -217,7 +217,8 @@ glm::ivec2 size_of_png(const std::filesystem::path& file) {
 TEST_F(SurfaceDrawing, ASheetHasAColumnAFrameAndARowASideTwiceWithTheSkin) {
   const test::TemporaryFolder folder;
   std::vector<glm::ivec2> sizes;
-  ContactSheet plain(draw_, {1, 4}, 3, false), skinned(draw_, {4}, 3, true);
+  ContactSheet plain(draw_, {.frames = {1, 4}, .sides = 3, .width = 90, .height = 60});
+  ContactSheet skinned(draw_, {.frames = {4}, .sides = 3, .with_skin = true, .width = 90, .height = 60});
   for (std::uint64_t frame = 1; frame <= 5; ++frame) {
     step();
     EXPECT_EQ(plain.wants(frame), frame == 1 || frame == 4) << frame;
@@ -231,9 +232,10 @@ TEST_F(SurfaceDrawing, ASheetHasAColumnAFrameAndARowASideTwiceWithTheSkin) {
     ASSERT_TRUE(written.ok()) << to_text(written.diagnostics());
     sizes.push_back(size_of_png(folder / "sheet.png"));
   }
-  EXPECT_GT(sizes[0].x, sizes[0].y / 3) << "two columns, three rows";
-  EXPECT_NEAR(sizes[0].x, 2 * sizes[1].x, 10);
-  EXPECT_NEAR(sizes[1].y, 2 * sizes[0].y, 10);
+  EXPECT_NEAR(sizes[0].x, 2 * 90, 12);
+  EXPECT_NEAR(sizes[0].y, 3 * 60, 16);
+  EXPECT_NEAR(sizes[1].x, 90, 8);
+  EXPECT_NEAR(sizes[1].y, 6 * 60, 28);
 }
 
 TEST(SpreadFrames, EndWithTheLastAndAreAllWhereThereAreFew) {
