@@ -17,7 +17,7 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr std::size_t kDirections = 64;   // over half a sphere: the best chord is found within some 10 degrees
+constexpr std::size_t kDirections = 40;   // over half a sphere: the best chord is found within some 15 degrees
 constexpr std::size_t kTries = 4;         // chords, the best first, until one has a free view
 constexpr double kGrazing = 0.05;         // sines of angles below count as this: such a chord is bad enough
 constexpr double kTouch = 1.0e-4;         // of the way to the vertex behind: nearer to it the surface is its own triangles

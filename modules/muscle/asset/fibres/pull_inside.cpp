@@ -13,7 +13,7 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr double kNone = 1.0e-9;   // m: a point on the surface itself has no direction to it
+constexpr double kOnSurface = 1.0e-6;  // m: a point so near to the surface has no direction to it but for rounding
 constexpr int kTries = 6;          // with half the way in each time
 constexpr std::size_t kChunk = 64;
 
@@ -57,7 +57,7 @@ PulledPoints pull_inside(const TriangleMesh& mesh, double margin, std::span<glm:
     const Way ways[] = {{place, way}, {place, -normal}, {(corner(0) + corner(1) + corner(2)) / 3.0, -normal}};
     for (const Way& w : ways) {
       const double length = glm::length(w.inward);
-      if (!(length > kNone * (&w == &ways[0] ? 1.0 : kNone))) continue;
+      if (!(length > 0.0) || (&w == &ways[0] && length < kOnSurface)) continue;
       const glm::dvec3 inward = w.inward / length;
       double depth = std::min(margin, 0.5 * thickness(scene, w.from, inward, margin));
       for (int i = 0; i < kTries; ++i, depth *= 0.5) {

@@ -19,6 +19,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr double kEdgeShare = 0.02;    // of the edges' squares in the triangulation's cost: short chords where areas tie
 constexpr int kRefinements = 2;        // every one makes four triangles of each
+constexpr int kMostPasses = 40;        // of turning edges; a few do
+constexpr double kTurnFrom = 1.0e-6;   // a sum of cotangents below minus this is an edge to turn
 constexpr double kRim = 0.9999;        // the mapped border is a polygon just inside of the circle
 constexpr double kOnEdge = -1.0e-9;    // a barycentric coordinate that still counts as inside
 
@@ -66,6 +68,34 @@ void refine(RefinedLoop& surface) {
   surface.triangles = std::move(finer);
 }
 
+double cotangent(const glm::dvec3& tip, const glm::dvec3& a, const glm::dvec3& b) {
+  const double across = glm::length(glm::cross(a - tip, b - tip));
+  return across > 0.0 ? glm::dot(a - tip, b - tip) / across : 0.0;
+}
+
+// Turns edges whose opposite angles sum to more than pi until none is left (Lawson): the slivers that a triangulation
+// without inner points has would bend the map by a tenth of its radius.
+void turn_edges(RefinedLoop& surface) {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const std::vector<std::uint32_t> corners = flat(surface.triangles);
+    const MeshEdges edges = find_edges(corners, surface.places.size());
+    std::vector<bool> turned(surface.triangles.size(), false);
+    bool any = false;
+    for (std::size_t e = 0; e < edges.count(); ++e) {
+      const std::span<const std::uint32_t> sides = edges.sides_of(e);
+      if (sides.size() != 2 || turned[sides[0] / 3] || turned[sides[1] / 3]) continue;
+      const std::uint32_t a = corners[sides[0]], b = corners[next_side(sides[0])];
+      const std::uint32_t c = corners[next_side(next_side(sides[0]))], d = corners[next_side(next_side(sides[1]))];
+      const std::vector<glm::dvec3>& p = surface.places;
+      if (c == d || !(cotangent(p[c], p[a], p[b]) + cotangent(p[d], p[a], p[b]) < -kTurnFrom)) continue;
+      surface.triangles[sides[0] / 3] = {a, d, c};
+      surface.triangles[sides[1] / 3] = {d, b, c};
+      turned[sides[0] / 3] = turned[sides[1] / 3] = any = true;
+    }
+    if (!any) return;
+  }
+}
+
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 }  // namespace
@@ -105,12 +135,14 @@ std::vector<Triangle> triangulate_loop(std::span<const glm::dvec3> loop) {
 }
 
 std::optional<SpannedDisc> SpannedDisc::span(std::span<const glm::dvec3> loop) {
+  if (loop.size() < 3) return std::nullopt;
   RefinedLoop surface;
   surface.places.assign(loop.begin(), loop.end());
   surface.triangles = triangulate_loop(loop);
   for (std::size_t i = 0; i < loop.size(); ++i)
     surface.turn.push_back(static_cast<double>(i) / static_cast<double>(loop.size()));
   for (int i = 0; i < kRefinements; ++i) refine(surface);
+  turn_edges(surface);
 
   const std::size_t count = surface.places.size();
   std::vector<glm::vec3> positions(count);

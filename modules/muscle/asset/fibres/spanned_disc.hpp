@@ -22,7 +22,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate_loop(std::span<const glm::
 
 class SpannedDisc {
  public:
-  // `loop`: 3 or more points, evenly spaced. Nothing where it has no length.
+  // `loop`: evenly spaced points. Nothing for fewer than 3, or where the map cannot be solved.
   static std::optional<SpannedDisc> span(std::span<const glm::dvec3> loop);
 
   // The place (m) of a point of the unit disc. (1, 0) is the loop's first point, (0, 1) a quarter of its length on. A
