@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/matrix.hpp>
+
 #include "engine/animation/skeleton.hpp"
 #include "engine/ecs/monotonic_clock.hpp"
 #include "game/simulation.hpp"
@@ -35,6 +37,15 @@ void apply(const SurfaceRunOptions& options, ecs::World& world) {
     if (!options.volume) muscle.settings.volume_compliance = kNoStiffness;
     if (!options.bones) muscle.settings.collide_with_bones = false;
     if (!options.edges || !options.angles) muscle.asset = softened(*muscle.asset, options);
+  });
+}
+
+// A frozen muscle still goes with its frame bone, as everything does that stands in the simulation's frame.
+void follow_frames(ecs::World& world) {
+  world.view<const SurfaceMuscle, SurfaceState>().each([&](const SurfaceMuscle& muscle, SurfaceState& state) {
+    const auto bone = static_cast<std::size_t>(muscle.asset->frame_bone);
+    const glm::dmat4 now{world.get<BoneMatrices>(muscle.character).world[bone]}, rest{muscle.rest_bones[bone]};
+    state.frame = glm::mat4(now * glm::inverse(rest));
   });
 }
 
@@ -112,6 +123,7 @@ SurfaceRun run_surfaces(const std::shared_ptr<const SceneAsset>& scene, const Su
     const std::int64_t start = monotonic_ns();
     simulation.step();
     const double step_ms = 1e-6 * static_cast<double>(monotonic_ns() - start);
+    if (options.solver == SurfaceSolver::kFrozen) follow_frames(world);
     const std::vector<game::SurfaceFigures>& figures = meters.measure(simulation);
     for (std::size_t m = 0; m < std::min(figures.size(), run.muscles.size()); ++m) {
       run.muscles[m].steps.push_back(to_step(figures[m], step_ms));
