@@ -8,7 +8,10 @@
 #include "engine/animation/pose_systems.hpp"
 #include "engine/animation/skinning_systems.hpp"
 #include "engine/math/state_hash.hpp"
+#include "modules/muscle/add_fibres.hpp"
+#include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/muscle.hpp"
+#include "modules/muscle/spawn_surface_muscles.hpp"
 #include "modules/muscle/systems/4_solve/solve_as_legacy.hpp"
 
 namespace fascicle::game {
@@ -75,6 +78,7 @@ void Simulation::spawn_all() {
 
 void Simulation::despawn_all() {
   for (const SpawnedCharacter& character : characters_) {
+    for (const ecs::Entity surface : character.surfaces) muscle::despawn_surface_muscle(world_, surface);
     muscle::despawn_musculature(world_, character.musculature);
     for (const ecs::Entity skin : character.skins) world_.destroy(skin);
     world_.destroy(character.entity);
@@ -115,6 +119,7 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
     muscle::add_collision(world_, spawned.musculature, asset.collision_levels, asset.collision.settings);
     if (asset.collision.settings.mode == muscle::CollisionMode::kLegacy) add_legacy_collision(world_, spawned);
   }
+  spawn_surfaces(spawned);
   for (const std::shared_ptr<const SkinAsset>& skin : asset.skins) {
     const ecs::Entity entity = world_.create();
     world_.add(entity, SkinInstance{skin, spawned.entity});
@@ -122,6 +127,21 @@ SpawnedCharacter Simulation::spawn(std::size_t scene_index, int copy) {
     spawned.skins.push_back(entity);
   }
   return spawned;
+}
+
+void Simulation::spawn_surfaces(SpawnedCharacter& spawned) {
+  const muscle::CharacterAsset& asset = *spawned.asset;
+  for (std::size_t i = 0; i < asset.surface_muscles.size(); ++i) {
+    const ecs::Entity entity =
+        muscle::spawn_surface_muscle(world_, spawned.entity, asset.surface_muscles[i], asset.skeleton->rest_world,
+                                     asset.bone_fields, spawned.musculature);
+    if (!options_.collision) {
+      muscle::SurfaceSettings& settings = world_.get<muscle::SurfaceMuscle>(entity).settings;
+      settings.collide_with_bones = settings.collide_with_itself = settings.collide_with_muscles = false;
+    }
+    if (asset.fibre_bundles[i]) muscle::add_fibres(world_, entity, asset.fibre_bundles[i]);
+    spawned.surfaces.push_back(entity);
+  }
 }
 
 void Simulation::swap_scene(std::shared_ptr<const muscle::SceneAsset> scene) {
@@ -177,6 +197,7 @@ std::uint64_t Simulation::hash() const {
     hash.add(std::span<const glm::mat4>(world_.get<BoneMatrices>(character.entity).world));
   }
   hash.add(muscle::hash_state(world_));
+  hash.add(muscle::hash_surface_state(world_));
   return hash.value();
 }
 

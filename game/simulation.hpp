@@ -31,6 +31,7 @@ struct SpawnedCharacter {
   std::size_t scene_index = 0;           // which of the scene's characters it is (a copy of)
   ecs::Entity entity;                    // LocalPose, Placement, BoneMatrices and a player
   ecs::Entity musculature;               // kNoEntity where the character has no muscles
+  std::vector<ecs::Entity> surfaces = {};  // SurfaceMuscle each, in the order of CharacterAsset::surface_muscles
   std::vector<ecs::Entity> skins;        // SkinInstance, SkinnedSurface
 };
 
@@ -70,7 +71,7 @@ class Simulation {
   // How far the first character has moved over the ground since its start, m: what a camera follows.
   glm::vec3 travel() const;
 
-  // A 64-bit hash of bone matrices, muscles' state and surfaces.
+  // A 64-bit hash of bone matrices, muscles' state and surfaces, and surface muscles' state.
   std::uint64_t hash() const;
 
   // How often a character kept its last bones, or a muscle its last shape, because the new ones were not finite.
@@ -91,6 +92,7 @@ class Simulation {
  private:
   void spawn_all();
   SpawnedCharacter spawn(std::size_t scene_index, int copy);
+  void spawn_surfaces(SpawnedCharacter& spawned);
   void despawn_all();
   glm::vec3 root_position() const;
 

@@ -34,6 +34,7 @@ namespace fascicle::muscle {
 
 class BoneField;
 struct CollisionAsset;
+struct FibreBundleAsset;
 struct MuscleAsset;
 struct MuscleLevels;
 struct SurfaceAsset;
@@ -84,6 +85,7 @@ struct CharacterAsset {
   // Muscles that are deforming meshes, beside those above: in file order, a mirror image after its original.
   std::vector<SurfaceMuscleDescription> surface_descriptions;
   std::vector<std::shared_ptr<const SurfaceAsset>> surface_muscles;  // by surface description
+  std::vector<std::shared_ptr<const FibreBundleAsset>> fibre_bundles;  // likewise: inner fibres; null: it has none
   // By description: 1 where a surface muscle that it drives is shown in its place, so that its own surface is not
   // drawn. It is posed, solved and measured all the same. Empty where there is no surface muscle.
   std::vector<std::uint8_t> hidden_muscles;

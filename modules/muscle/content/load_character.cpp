@@ -155,10 +155,8 @@ void check_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& ass
   for (const Diagnostic& fault : built.errors) report.add({.errors = {fault}, .warnings = {}});
 }
 
-// The stored fits, where there is use for them. That they are broken is no error: muscles are fitted anew.
-FitStore load_fits(const fs::path& file, const CharacterAsset& asset, ContentSources& sources,
-                   Diagnostics& diagnostics) {
-  if (asset.muscle_meshes.empty()) return {};
+// The fits stored beside one character file. That they are broken is no error: muscles are fitted anew.
+FitStore load_fits(const fs::path& file, ContentSources& sources, Diagnostics& diagnostics) {
   const fs::path store_file = fit_store_of(file);
   sources.note(store_file);
   std::error_code error;
@@ -172,6 +170,18 @@ FitStore load_fits(const fs::path& file, const CharacterAsset& asset, ContentSou
   warning.remedy = "muscles are fitted at load; run fascicle-cook fit " + file.string();
   diagnostics.warnings.push_back(std::move(warning));
   return {};
+}
+
+// Those beside a file and beside the ones that its muscles come from: a muscle that nothing has changed about is
+// fitted already. The nearest file's go first.
+FitStore load_fits(const MuscleChain& chain, const CharacterAsset& asset, ContentSources& sources,
+                   Diagnostics& diagnostics) {
+  FitStore store;
+  if (asset.muscle_meshes.empty()) return store;
+  for (std::size_t i = 0; i < chain.files().size(); ++i) {
+    store.merge(load_fits(chain.path(i), sources, diagnostics));
+  }
+  return store;
 }
 
 }  // namespace
@@ -216,7 +226,7 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   ResolvedCollision collision = load_collision(content, base, mirror, names, sources, *asset, diagnostics);
   if (diagnostics.ok() && !resolved.empty()) {
     FitStore store;
-    if (options.fit == FitMode::kStored) store = load_fits(file, *asset, sources, diagnostics);
+    if (options.fit == FitMode::kStored) store = load_fits(chain, *asset, sources, diagnostics);
     const FitSettings settings{options.fit != FitMode::kNone, content.fit_supersampling, content.coarser_levels};
     build_levels(resolved, settings, store, *asset, diagnostics);
     if (asset->muscles) place_images(*asset->muscles, mirror.axis, collision);

@@ -3,6 +3,7 @@
 #include "modules/muscle/content/load_parts.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "engine/animation/skeleton.hpp"
 #include "engine/content/closest_name.hpp"
 #include "engine/parallel/for_range.hpp"
+#include "modules/muscle/asset/fibres/fibre_bundle.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/content/mirror.hpp"
 #include "modules/muscle/content/surface_attachments.hpp"
@@ -268,6 +270,18 @@ class SurfaceLoads {
   Diagnostics& diagnostics_;
 };
 
+// The fibres' builder knows a muscle's name and no file.
+void place_at(const Diagnostic& where, const char* field, Diagnostics& found) {
+  const auto place = [&](Diagnostic& one) {
+    one.file = where.file;
+    one.line = where.line;
+    one.column = where.column;
+    one.path = where.path + field;
+  };
+  std::ranges::for_each(found.errors, place);
+  std::ranges::for_each(found.warnings, place);
+}
+
 }  // namespace
 
 void load_surface_muscles(const CharacterFile& file, const fs::path& base, ContentSources& sources, MuscleNames& names,
@@ -280,12 +294,19 @@ void build_surface_muscles(CharacterAsset& asset, Diagnostics& diagnostics) {
   const std::size_t count = asset.surface_descriptions.size();
   const auto bones = static_cast<std::uint32_t>(asset.skeleton->size());
   asset.surface_muscles.assign(count, nullptr);
+  asset.fibre_bundles.assign(count, nullptr);
   std::vector<Diagnostics> found(count);
   parallel::for_range(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto built = build_surface_asset(asset.surface_descriptions[i], bones, asset.muscles.get());
+      const SurfaceMuscleDescription& muscle = asset.surface_descriptions[i];
+      auto built = build_surface_asset(muscle, bones, asset.muscles.get());
       if (built) asset.surface_muscles[i] = *built;
       found[i] = std::move(built.diagnostics());
+      if (!asset.surface_muscles[i] || !muscle.fibre_bundle) continue;
+      auto bundle = build_fibre_bundle(*asset.surface_muscles[i], *muscle.fibre_bundle);
+      if (bundle) asset.fibre_bundles[i] = *bundle;
+      place_at(muscle.where, "/inner_fibres", bundle.diagnostics());
+      found[i].append(std::move(bundle.diagnostics()));
     }
   });
   for (Diagnostics& each : found) diagnostics.append(std::move(each));

@@ -136,9 +136,9 @@ bool is_closed(const MeshEntry& entry, const MeshDefects& defects, Diagnostics& 
   return defects.closed();
 }
 
-void tell_repairs(const MeshEntry& entry, const MeshDefects& defects, Diagnostics& diagnostics) {
+void tell_repairs(const SurfaceMuscleEntry& entry, const MeshDefects& defects, Diagnostics& diagnostics) {
   const auto tell = [&](bool is_so, std::string cause, const char* remedy) {
-    if (is_so) entry.node.warning(diagnostics, std::move(cause), remedy);
+    if (is_so) entry.mesh.node.warning(diagnostics, std::move(cause), remedy);
   };
   constexpr const char* kMend = "mend the file; until then this is done at each load";
   tell(defects.inverted, "the mesh is inside out: all its triangles are turned round", kMend);
@@ -153,7 +153,7 @@ void tell_repairs(const MeshEntry& entry, const MeshDefects& defects, Diagnostic
        fmt::format("{} no finite place, and left out",
                    count(defects.non_finite_vertices, "vertex is", "vertices are")),
        kMend);
-  tell(defects.self_intersections > 0,
+  tell(defects.self_intersections > 0 && entry.settings.collide_with_itself,  // nothing else minds
        fmt::format("{}{} through each other at rest", defects.more_self_intersections ? "at least " : "",
                    count(defects.self_intersections, "pair of triangles passes", "pairs of triangles pass")),
        "smooth the mesh there: what crosses at rest stays crossed");
@@ -184,7 +184,7 @@ std::optional<SurfaceMesh> load_surface_mesh(const SurfaceMuscleEntry& entry, co
   if (!mesh.source) return std::nullopt;
   CleanMesh clean = clean_mesh(*mesh.source);
   if (!is_closed(entry.mesh, clean.defects, diagnostics)) return std::nullopt;
-  tell_repairs(entry.mesh, clean.defects, diagnostics);
+  tell_repairs(entry, clean.defects, diagnostics);
 
   const float unit = entry.mesh.name.given() ? file.muscle_mesh_unit : entry.mesh.unit;
   Trs placement = entry.mesh.transform;

@@ -172,6 +172,27 @@ TEST(Motion, LoopsWithoutAJump) {
   }
 }
 
+// A motion whose rest at the end would make the best cycle, and whose ends differ.
+TEST(Motion, LoopsItsWholeRecordAsRecordedWhereAsked) {
+  std::string text = "m\ninDegrees=no\nendheader\ntime\thip\n";
+  for (int i = 0; i <= 20; ++i) text += fmt::format("{}\t{}\n", 3.0 + 0.1 * i, i < 10 ? -0.1 * i : -0.5);
+  auto motion = parse_motion(text, "m.mot", leg());
+  ASSERT_TRUE(motion.ok()) << to_text(motion.diagnostics());
+  EXPECT_LT(motion->cycle.length(), 1.5);
+  loop_whole_record(*motion);
+  EXPECT_EQ(motion->cycle.start, 3.0);
+  EXPECT_EQ(motion->cycle.end, 5.0);
+  std::vector<double> values(3);
+  for (int i = 0; i < 20; ++i) {
+    for (const bool in_place : {false, true}) {
+      sample_cycle(*motion, 0.1 * i, in_place, values);
+      EXPECT_NEAR(values[2], i < 10 ? -0.1 * i : -0.5, 1e-12) << i;
+      sample_cycle(*motion, 0.1 * i + 2.0, in_place, values);
+      EXPECT_NEAR(values[2], i < 10 ? -0.1 * i : -0.5, 1e-9) << i;
+    }
+  }
+}
+
 TEST(JointSystems, PlayAMotionOntoTheSkeleton) {
   auto model = std::make_shared<const JointModel>(leg());
   auto motion = std::make_shared<const Motion>(walk());

@@ -60,6 +60,29 @@ TEST(LoadScene, PlaysAMotionOnJoints) {
   EXPECT_THAT((*loaded)->files, testing::Contains(folder.path() / "turn.mot"));
 }
 
+TEST(LoadScene, AMotionMayRepeatAllOfItsRecord) {
+  const ScratchFolder folder;
+  write_pair(folder);
+  std::string motion = "turn\ninDegrees=no\nendheader\ntime lift\n";
+  for (int i = 0; i <= 20; ++i) motion += std::to_string(0.1 * i) + (i < 10 ? " " + std::to_string(i) : " 0") + '\n';
+  folder.write("turn.mot", motion);
+  folder.write("legs.character.json",
+               test::with(test::with(std::string(test::kLegs), "\"coordinates\": []",
+                                     R"("coordinates": [{ "name": "lift", "range": [-30, 30] }])"),
+                          R"("name": "hip_r", )",
+                          R"("name": "hip_r", "rotations": [{ "axis": [0, 0, 1], "coordinate": "lift" }], )"));
+  const auto length = [&](const char* loop) {
+    const auto scene = folder.write("turn.scene.json", std::string(R"({ "version": 1, "name": "turn", "characters": [
+      { "file": "legs.character.json", "animation": { "motion": "turn.mot")") + loop + " } }] }");
+    const auto loaded = load_scene(scene);
+    EXPECT_TRUE(loaded.ok()) << to_text(loaded.diagnostics());
+    return loaded.ok() ? (*loaded)->characters[0].animation.motion->cycle.length() : 0.0;
+  };
+  EXPECT_NEAR(length(R"(, "loop": "record")"), 2.0, 1e-9);
+  EXPECT_LT(length(R"(, "loop": "cycle")"), 1.5);
+  EXPECT_EQ(length(""), length(R"(, "loop": "cycle")"));
+}
+
 TEST(LoadScene, FoldersCanBeGiven) {
   const ScratchFolder folder;
   folder.write("shapes.gltf", test::kShapes);
