@@ -99,6 +99,7 @@ void SceneView::attach_character(const SpawnedCharacter& character) {
     drawn.levels.push_back(add_level(*world.get<muscle::Musculature>(character.musculature).asset));
   }
   world.add(character.musculature, std::move(drawn));
+  for (std::uint32_t m = 0; m < character.asset->hidden_muscles.size(); ++m) apply_flags(character, m, 0);
 }
 
 void SceneView::attach_surfaces() {
@@ -115,7 +116,6 @@ void SceneView::attach_surfaces() {
                                           muscle::make_fibre_indices(*bundle->asset));
     }
     world.add(entity, drawn);
-    if (surface.musculature != ecs::kNoEntity) apply_flags(surface.musculature, surface.driver, 0);
   }
 }
 
@@ -223,16 +223,15 @@ muscle::Viewer make_viewer(const OrbitCamera& camera, int height, std::optional<
 void SceneView::set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags) {
   for (const SpawnedCharacter& character : simulation_.characters()) {
     if (character.scene_index != scene_index || character.musculature == ecs::kNoEntity) continue;
-    apply_flags(character.musculature, muscle, flags);
+    apply_flags(character, muscle, flags);
   }
 }
 
-void SceneView::apply_flags(ecs::Entity musculature, std::uint32_t muscle, std::uint32_t flags) {
-  ecs::World& world = simulation_.world();
-  world.view<const muscle::SurfaceMuscle>().each([&](const muscle::SurfaceMuscle& surface) {
-    if (surface.musculature == musculature && surface.driver == muscle) flags |= kItemHidden;
-  });
-  for (const muscle::DrawnMuscles::Level& level : world.get<muscle::DrawnMuscles>(musculature).levels) {
+void SceneView::apply_flags(const SpawnedCharacter& character, std::uint32_t muscle, std::uint32_t flags) {
+  const std::vector<std::uint8_t>& hidden = character.asset->hidden_muscles;
+  if (muscle < hidden.size() && hidden[muscle] != 0) flags |= kItemHidden;
+  const auto& drawn = simulation_.world().get<muscle::DrawnMuscles>(character.musculature);
+  for (const muscle::DrawnMuscles::Level& level : drawn.levels) {
     const std::span<StripItem> items = renderer_.strip_items(level.strips);
     if (muscle < items.size()) items[muscle].flags = flags;
   }

@@ -65,8 +65,8 @@ class SceneView {
   // The section and vertex that a tag names, on one of Simulation::characters().
   void mark_place(std::size_t character, const muscle::SectionTag& tag, std::uint32_t colour);
 
-  // Of one muscle, on all characters of its asset, at every level of detail: hidden or highlighted. A muscle that
-  // drives a surface muscle stays hidden: that is what it looks like.
+  // Of one muscle, on all characters of its asset, at every level of detail: hidden or highlighted. What a
+  // surface muscle stands for (CharacterAsset::hidden_muscles) stays hidden.
   void set_muscle_flags(std::size_t scene_index, std::uint32_t muscle, std::uint32_t flags);
   // Likewise of a surface muscle, by its name.
   void set_surface_flags(std::size_t scene_index, std::string_view name, std::uint32_t flags);
@@ -80,7 +80,7 @@ class SceneView {
   void attach_character(const SpawnedCharacter& character);
   void attach_surfaces();
   void release_surfaces();
-  void apply_flags(ecs::Entity musculature, std::uint32_t muscle, std::uint32_t flags);
+  void apply_flags(const SpawnedCharacter& character, std::uint32_t muscle, std::uint32_t flags);
   muscle::DrawnMuscles::Level add_level(const muscle::MuscleAsset& asset);
 
   Simulation& simulation_;
