@@ -9,6 +9,7 @@
 
 #include "engine/animation/skeleton.hpp"
 #include "engine/geometry/mesh_measures.hpp"
+#include "modules/muscle/asset/fibres/fibre_bundle.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "tests/modules/muscle/content/scratch_surfaces.hpp"
 
@@ -208,6 +209,25 @@ TEST_F(LoadSurfaces, FibresOfAFileAreJoinedWhereTheyGoOn) {
   // Live reload watches it.
   EXPECT_THAT(limb->files, testing::Contains(folder.path() / "lines.vtk"));
   EXPECT_THAT(limb->files, testing::Contains(folder.path() / "ball.obj"));
+}
+
+TEST_F(LoadSurfaces, InnerFibresAreMadeAndTheirFaultsStandAtTheirPlace) {
+  const auto limb = load(with(std::string(kLimb), R"("fibres")",
+                              R"("inner_fibres": { "method": "isocontours", "count": 12, "points": 5 }, "fibres")"));
+  ASSERT_TRUE(limb);
+  ASSERT_TRUE(limb->fibre_bundles.at(0));
+  EXPECT_EQ(limb->fibre_bundles[0]->count, 12u);
+  EXPECT_EQ(limb->fibre_bundles[0]->points_per_fibre, 5u);
+  ASSERT_TRUE(load(kLimb));
+  EXPECT_FALSE((*loaded)->fibre_bundles.at(0));
+
+  // Fibres between those on the surface, where there are none.
+  std::string text = with(std::string(kLimb), R"("fibres": [{ "points": [[-150, -100, 0], [-150, 0, 90], [-150, 100, 0]] }],)",
+                          R"("inner_fibres": { "method": "surface" },)");
+  const auto broken = load_character(test::write_limb(folder, text), {.bone_fields = false});
+  ASSERT_FALSE(broken.ok());
+  EXPECT_EQ(broken.diagnostics().errors[0].path, "/surface_muscles/0/inner_fibres");
+  EXPECT_GT(broken.diagnostics().errors[0].line, 0);
 }
 
 TEST_F(LoadSurfaces, ComeWithMusclesFromAnotherFile) {

@@ -1,8 +1,12 @@
 // The scenes of the method's page 4.3 as content: what they attach, how their bones move, and that their muscles are
 // what they are said to be.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <glm/geometric.hpp>
@@ -14,6 +18,7 @@
 #include "engine/animation/skeleton.hpp"
 #include "engine/content/triangle_mesh.hpp"
 #include "engine/geometry/mesh_measures.hpp"
+#include "modules/muscle/asset/fibres/fibre_bundle.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 #include "tests/support/test_data.hpp"
@@ -25,13 +30,16 @@ using testing::HasSubstr;
 
 const std::filesystem::path kScenes = std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "scenes";
 
+// Each scene is loaded once.
 std::shared_ptr<const SceneAsset> load(const std::string& name) {
+  static std::map<std::string, std::shared_ptr<const SceneAsset>> scenes;
+  if (const auto known = scenes.find(name); known != scenes.end()) return known->second;
   // The bones' fields are other tests' business; without them a load is quick.
   const auto loaded = load_scene(kScenes / (name + ".scene.json"),
                                  {.data_folder = test::data_folder(), .bone_fields = false});
   EXPECT_TRUE(loaded.ok()) << to_text(loaded.diagnostics());
   EXPECT_TRUE(loaded.diagnostics().warnings.empty()) << to_text(loaded.diagnostics());
-  return loaded.ok() ? *loaded : nullptr;
+  return scenes.emplace(name, loaded.ok() ? *loaded : nullptr).first->second;
 }
 
 // The figure of the method's 4.3: 100 steps out, 100 back, 100 at rest, and one more, so that step 300 is no repetition.
@@ -111,6 +119,8 @@ TEST_P(HipScenes, AreAttachedAsTheyAreSaidToBe) {
   EXPECT_NEAR(muscle.volume, GetParam().volume, 1e-7);
   EXPECT_EQ(muscle.frame_bone, character.skeleton->find("pelvis"));
   EXPECT_EQ(muscle.fibres.size(), GetParam().fibres);
+  ASSERT_TRUE(character.fibre_bundles.at(0));
+  EXPECT_EQ(character.fibre_bundles[0]->count, 1000u);
   ASSERT_EQ(muscle.attachments.size(), 2u);
   EXPECT_EQ(muscle.attachments[0].bone, character.skeleton->find("pelvis"));
   EXPECT_TRUE(muscle.attachments[0].origin);
