@@ -54,7 +54,7 @@ SurfaceMeters::Meter& SurfaceMeters::meter_of(const std::shared_ptr<const muscle
     characters_.push_back({character, muscle::make_bone_solids(character->bone_meshes)});
     known = std::prev(characters_.end());
   }
-  return meters_.emplace_back(Meter{asset, character, {asset, known->bones}});
+  return meters_.emplace_back(Meter{asset, character, {asset, known->bones}, muscle::InsideMeter(asset)});
 }
 
 void SurfaceMeters::start(Simulation& simulation) {
@@ -80,15 +80,20 @@ const std::vector<SurfaceFigures>& SurfaceMeters::measure(Simulation& simulation
     figures.asset = own.asset;
     figures.fallbacks = state.fallbacks;
     const std::vector<glm::mat4>& bones = world.get<BoneMatrices>(own.character).world;
+    const auto* bundle = world.try_get<muscle::FibreBundle>(entity);
     simulation.workers().execute([&] {
-      figures.depths = meter_of(character, own.asset).meter.measure(state.points, state.frame, bones);
+      Meter& meter = meter_of(character, own.asset);
+      figures.depths = meter.depths.measure(state.points, state.frame, bones);
+      if (bundle != nullptr && figures.depths.finite) {
+        figures.fibres_outside = meter.inside.measure(state.points, bundle->points);
+      }
     });
     figures.attachment_errors = muscle::attachment_errors(*own.asset, state.points, state.frame,
                                                           character->skeleton->rest_world, bones);
     for (const double error : figures.attachment_errors) {
       figures.attachment_error = std::max(figures.attachment_error, error);
     }
-    if (const auto* bundle = world.try_get<muscle::FibreBundle>(entity)) read_fibres(*bundle, figures);
+    if (bundle != nullptr) read_fibres(*bundle, figures);
     figures_.push_back(std::move(figures));
   }
   // Adding a component may have moved the others.
@@ -99,7 +104,7 @@ const std::vector<SurfaceFigures>& SurfaceMeters::measure(Simulation& simulation
 void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& report) {
   if (figures.empty()) return;
   double volume = 1.0, mean = 1.0, most = 0.0, off = 0.0, bent = 0.0, rest = 0.0, depth = 0.0, attachment = 0.0;
-  double fibres = 1.0, turned = 0.0, fallbacks = 0.0;
+  double fibres = 1.0, outside = 0.0, turned = 0.0, fallbacks = 0.0;
   bool any_fibres = false;
   for (const SurfaceFigures& f : figures) {
     volume = further(f.quality->volume_ratio, volume);
@@ -115,6 +120,7 @@ void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& 
     if (f.fibre_ratios.empty()) continue;
     any_fibres = true;
     fibres = further(f.fibre_ratio_mean, fibres);
+    outside += static_cast<double>(f.fibres_outside.count);
   }
   report.record("surface.volume_ratio", volume);
   report.record("surface.edge_ratio_mean", mean);
@@ -124,7 +130,10 @@ void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& 
   report.record("surface.bone_depth_max_mm", 1e3 * depth);
   report.record("surface.rest_distance_max_mm", 1e3 * rest);
   report.record("surface.attachment_error_max_mm", 1e3 * attachment);
-  if (any_fibres) report.record("surface.fibre_length_ratio_mean", fibres);
+  if (any_fibres) {
+    report.record("surface.fibre_length_ratio_mean", fibres);
+    report.record("surface.fibre_points_outside", outside);
+  }
   report.record("surface.turned_edges", turned);
   report.record("surface.fallbacks", fallbacks);
 }

@@ -12,6 +12,7 @@
 #include "engine/ecs/entity.hpp"
 #include "game/report.hpp"
 #include "game/simulation.hpp"
+#include "modules/muscle/measure/points_inside.hpp"
 #include "modules/muscle/measure/surface_depth.hpp"
 
 namespace fascicle::muscle {
@@ -29,6 +30,7 @@ struct SurfaceFigures {
   double attachment_error = 0.0;                    // m, the worst of these
   std::vector<double> fibre_ratios;                 // length to rest, by fibre; empty: it has none
   double fibre_ratio_mean = 1.0;
+  muscle::PointsOutside fibres_outside;             // the fibres' points that are not inside the muscle
   std::uint64_t fallbacks = 0;                      // so far
 };
 
@@ -49,7 +51,8 @@ class SurfaceMeters {
   struct Meter {
     std::shared_ptr<const muscle::SurfaceAsset> asset;
     std::shared_ptr<const muscle::CharacterAsset> character;
-    muscle::SurfaceDepthMeter meter;
+    muscle::SurfaceDepthMeter depths;
+    muscle::InsideMeter inside;
   };
 
   Meter& meter_of(const std::shared_ptr<const muscle::CharacterAsset>& character,
@@ -64,8 +67,8 @@ class SurfaceMeters {
 // worst by it: the ratios furthest from 1, else the largest.
 //   surface.volume_ratio, edge_ratio_mean, edge_ratio_max, edge_ratio_abs_mean (mean |ratio - 1|),
 //   dihedral_change_mean_rad, bone_depth_max_mm (triangles at attached vertices and their neighbours left out),
-//   rest_distance_max_mm, attachment_error_max_mm, fibre_length_ratio_mean (where there are fibres), turned_edges
-//   (triangles that have swung through their neighbours) and fallbacks.
+//   rest_distance_max_mm, attachment_error_max_mm, fibre_length_ratio_mean and fibre_points_outside (where
+//   there are fibres), turned_edges (triangles that have swung through their neighbours) and fallbacks.
 void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& report);
 
 }  // namespace fascicle::game

@@ -88,6 +88,9 @@ class Checker {
 
 void check_fibres(Checker& checker, const SurfaceMuscleRun& run) {
   if (run.fibre_rest.empty()) return;
+  checker.at_every_step("points of fibres outside of the muscle", 0.0, "", [](const auto& s) {
+    return s.fibres_outside;
+  });
   checker.at_step(kRested, "worst fibre |length ratio - 1|", 0.005, "", [](const SurfaceStepFigures& s) {
     return std::max(off_one(s.fibre_min), off_one(s.fibre_max));
   });

@@ -47,6 +47,8 @@ constexpr std::array kFibreFigures = {
     Figure{"fibre_length_ratio_mean", "fibre length ratio, mean", &SurfaceStepFigures::fibre_mean, 1.0},
     Figure{"fibre_length_ratio_min", "fibre length ratio, smallest", &SurfaceStepFigures::fibre_min, 1.0},
     Figure{"fibre_length_ratio_max", "fibre length ratio, largest", &SurfaceStepFigures::fibre_max, 1.0},
+    Figure{"fibre_points_outside", "fibre points outside", &SurfaceStepFigures::fibres_outside, 0.0},
+    Figure{"fibre_outside_max_mm", "  furthest of them (mm)", &SurfaceStepFigures::fibre_furthest, 0.0},
 };
 
 template <class F>

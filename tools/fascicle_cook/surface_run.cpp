@@ -88,6 +88,8 @@ SurfaceStepFigures to_step(const game::SurfaceFigures& figures, double step_ms) 
     step.fibre_mean = figures.fibre_ratio_mean;
     step.fibre_min = *least;
     step.fibre_max = *most;
+    step.fibres_outside = static_cast<double>(figures.fibres_outside.count);
+    step.fibre_furthest = 1e3 * figures.fibres_outside.furthest;
   }
   step.fallbacks = static_cast<double>(figures.fallbacks);
   step.step_ms = step_ms;

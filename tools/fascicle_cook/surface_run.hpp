@@ -38,6 +38,8 @@ struct SurfaceStepFigures {
   double bone_depth_max = 0.0;               // triangles at attached vertices and their neighbours left out
   double bone_depth_beside = 0.0;            // those that touch neighbours
   double fibre_mean = 1.0, fibre_min = 1.0, fibre_max = 1.0;  // length to rest
+  double fibres_outside = 0.0;               // points of fibres that are outside of the muscle
+  double fibre_furthest = 0.0;               // of these from its surface
   double fallbacks = 0.0;                    // so far
   double step_ms = 0.0;                      // of the whole simulation
 };

@@ -100,6 +100,7 @@ TEST(CheckSurface, EveryFaultFailsItsCheck) {
       {"hip-gluteus", 300, &F::dihedral_mean, 0.021, "mean dihedral change at step 300"},
       {"hip-gluteus", 300, &F::fibre_max, 1.006, "worst fibre |length ratio - 1| at step 300"},
       {"hip-gluteus", 300, &F::fibre_min, 0.994, "worst fibre |length ratio - 1| at step 300"},
+      {"hip-gluteus", 30, &F::fibres_outside, 1.0, "points of fibres outside of the muscle at every step"},
       {"hip-iliacus", 300, &F::rest_distance_max, 2.1, "furthest vertex from rest at step 300"},
       {"box", 300, &F::edge_mean, 0.994, "|mean edge ratio - 1| at step 300"},
       {"box", 300, &F::edge_max, 1.31, "largest edge ratio at step 300"},
