@@ -11,6 +11,7 @@
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/asset/surface/carry_weights.hpp"
 #include "modules/muscle/asset/surface/check_surface.hpp"
+#include "modules/muscle/asset/surface/fibre_directions.hpp"
 #include "modules/muscle/asset/surface/pack_hinges.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/asset/surface/surface_tree.hpp"
@@ -65,25 +66,6 @@ SortedMesh sort_by_place(const TriangleMesh& mesh) {
   return sorted;
 }
 
-// The direction of the fibre nearest to a place; zero where there are none.
-glm::vec3 fibre_direction(const std::vector<FibreLine>& fibres, const glm::vec3& p) {
-  float nearest = std::numeric_limits<float>::max();
-  glm::vec3 direction(0.0f);
-  for (const FibreLine& fibre : fibres) {
-    for (std::size_t i = 0; i + 1 < fibre.points.size(); ++i) {
-      const glm::vec3 along = fibre.points[i + 1] - fibre.points[i];
-      const float square = glm::dot(along, along);
-      if (!(square > 0.0f)) continue;
-      const float f = glm::clamp(glm::dot(p - fibre.points[i], along) / square, 0.0f, 1.0f);
-      const float distance = glm::distance(p, fibre.points[i] + f * along);
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      direction = along / std::sqrt(square);
-    }
-  }
-  return direction;
-}
-
 // One an edge, those with a vertex that can move first; by their lowest vertex.
 std::vector<Hinge> find_hinges(const TriangleMesh& mesh, std::span<const std::int32_t> attachment_of,
                                std::size_t& movable) {
@@ -101,14 +83,6 @@ std::vector<Hinge> find_hinges(const TriangleMesh& mesh, std::span<const std::in
   });
   movable = static_cast<std::size_t>(moves - hinges.begin());
   return hinges;
-}
-
-// An edge's k (4.1): little along the fibres, 1 across them or where there are none.
-float anisotropy(const SurfaceMuscleDescription& description, const glm::vec3& p, const glm::vec3& q) {
-  const glm::vec3 fibre = fibre_direction(description.fibres, 0.5f * (p + q));
-  const float length = glm::distance(p, q);
-  const float k = length > 0.0f ? 1.0f - std::abs(glm::dot(q - p, fibre)) / length : 1.0f;
-  return glm::clamp(k, description.settings.along_fibres, 1.0f);
 }
 
 }  // namespace
@@ -155,12 +129,26 @@ Result<std::shared_ptr<const SurfaceAsset>> build_surface_asset(const SurfaceMus
   }
   add_padding(asset->rest);
 
+  if (!description.driver.empty()) {
+    const auto muscle = static_cast<std::uint32_t>(find_muscle(*muscles, description.driver));
+    Carriage carriage = carry_by_sections(mesh.positions, *muscles, muscle);
+    asset->carriers = std::move(carriage.carriers);
+    asset->carry = std::move(carriage.weights);
+  } else {
+    Result<Carriage> carriage =
+        carry_by_bones(mesh.positions, mesh.indices, attachment_of, asset->attachments, description.frame_bone);
+    if (!carriage) return carriage.diagnostics();
+    asset->carriers = std::move(carriage->carriers);
+    asset->carry = std::move(carriage->weights);
+  }
+
   std::size_t movable = 0;
   std::vector<Hinge> hinges = find_hinges(mesh, attachment_of, movable);
   measure_hinges(asset->rest, hinges);
+  const FibreDirections directions(*asset, mesh.positions);
   double sum = 0.0;
   for (Hinge& hinge : hinges) {
-    hinge.anisotropy = anisotropy(description, mesh.positions[hinge.vertex[0]], mesh.positions[hinge.vertex[1]]);
+    hinge.anisotropy = std::clamp(directions.across(hinge), description.settings.along_fibres, 1.0f);
     sum += static_cast<double>(hinge.length);
   }
   asset->mean_edge = static_cast<float>(sum / static_cast<double>(hinges.size()));
@@ -182,18 +170,6 @@ Result<std::shared_ptr<const SurfaceAsset>> build_surface_asset(const SurfaceMus
 
   asset->tree = std::make_shared<const SurfaceTree>(build_surface_tree(*asset));
 
-  if (!description.driver.empty()) {
-    const auto muscle = static_cast<std::uint32_t>(find_muscle(*muscles, description.driver));
-    Carriage carriage = carry_by_sections(mesh.positions, *muscles, muscle);
-    asset->carriers = std::move(carriage.carriers);
-    asset->carry = std::move(carriage.weights);
-  } else {
-    Result<Carriage> carriage =
-        carry_by_bones(mesh.positions, mesh.indices, attachment_of, asset->attachments, description.frame_bone);
-    if (!carriage) return carriage.diagnostics();
-    asset->carriers = std::move(carriage->carriers);
-    asset->carry = std::move(carriage->weights);
-  }
   return std::shared_ptr<const SurfaceAsset>(std::move(asset));
 }
 

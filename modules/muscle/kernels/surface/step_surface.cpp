@@ -15,6 +15,7 @@ namespace {
 constexpr float kLeastReach = 0.003f;     // m beyond the contact distance that a vertex may come nearer to a bone in a step
 constexpr float kReachPerSpeed = 2.0f;    // of what the fastest vertex moved in the last step
 constexpr std::size_t kCarriedSample = 16;  // of so many vertices one is asked how far it is carried
+constexpr double kLeastVolume = 0.1, kMostVolume = 2.0;  // of that at rest
 constexpr float kFurthest = 4.0f;         // of the muscle's size at rest, between two vertices: more has diverged
 
 glm::vec3 place(const SurfacePoint& p) { return {p.x, p.y, p.z}; }
@@ -195,7 +196,7 @@ void begin_step(const SurfaceStep& step, SurfaceScratch& scratch) {
   if (scratch.pull > 0.0f) place_carried(step, scratch, scratch.anchors);
   const float fastest = speed_of_fastest(step);
   find_near(step, fastest, scratch);
-  scratch.nearer = kReachPerSpeed * fastest * step.step + furthest_carried(step);
+  scratch.nearer = fastest * step.step + furthest_carried(step);
   scratch.boxes.placed = false;
   if (!touches_itself(step)) return;
   make_room_for_itself(*step.asset, scratch);
@@ -268,7 +269,8 @@ void carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch) {
   std::fill(step.velocity.begin(), step.velocity.end(), SurfacePoint{});
 }
 
-bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points) {
+bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points, double volume) {
+  if (!(volume > kLeastVolume * asset.volume && volume < kMostVolume * asset.volume)) return false;
   const glm::vec3 first = place(points[0]);
   for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
     if (!(glm::distance(place(points[v]), first) <= kFurthest * asset.size)) return false;

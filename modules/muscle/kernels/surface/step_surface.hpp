@@ -86,7 +86,7 @@ double end_step(const SurfaceStep& step, SurfaceScratch& scratch);
 // muscle starts, and what it falls back to. `step.*.to` counts. At rest the answer is the rest shape exactly.
 void carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch);
 
-// Finite, and no vertex further from the first than a muscle can stretch.
-bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points);
+// Finite, no vertex further from the first than a muscle can stretch, `volume` (m^3) one that it can have.
+bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points, double volume);
 
 }  // namespace fascicle::muscle

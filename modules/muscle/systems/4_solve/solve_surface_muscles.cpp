@@ -127,7 +127,7 @@ struct Solve {
   }
 
   void finish(const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
-    if (!is_sound(*muscle.asset, state.points)) {
+    if (!is_sound(*muscle.asset, state.points, state.volume)) {
       carry_rest_shape(step_of(muscle, state), state.scratch);
       ++state.fallbacks;
     }
