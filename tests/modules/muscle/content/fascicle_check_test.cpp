@@ -8,6 +8,7 @@
 
 #include "engine/content/json_reader.hpp"
 #include "tests/modules/muscle/content/scratch_content.hpp"
+#include "tests/modules/muscle/content/scratch_surfaces.hpp"
 
 namespace fascicle {
 namespace {
@@ -54,6 +55,17 @@ TEST(FascicleCheck, FineIsZeroAndBrokenIsOne) {
                                        "range; write a number between 0 and 10000000\n"));
   EXPECT_EQ(run(folder.path().string() + "/none.scene.json").status, 1);
   EXPECT_EQ(run(folder.path().string() + "/block.character.json " + scene).status, 1);
+}
+
+TEST(FascicleCheck, ChecksSurfaceMusclesDownToTheirMeshes) {
+  const test::ScratchFolder folder;
+  std::string file = test::write_limb(folder).string();
+  EXPECT_EQ(run(file).status, 0);
+  file = test::write_limb(folder, test::with(std::string(test::kLimb), R"("ball.obj", "unit": "mm")", R"("ball.obj")"));
+  const Outcome broken = run("--format json " + file);
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_THAT(broken.output, testing::HasSubstr("/surface_muscles/0/mesh"));
+  EXPECT_THAT(broken.output, testing::HasSubstr("346 m long"));
 }
 
 TEST(FascicleCheck, PrintsJson) {
