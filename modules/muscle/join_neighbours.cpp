@@ -12,6 +12,9 @@
 namespace fascicle::muscle {
 namespace {
 
+// Pairs there is room for, so that a character of dozens of muscles, most far from most others, stays small.
+constexpr std::size_t kLeastRoom = 2048, kVerticesPerPair = 2;
+
 bool collides(const SurfaceMuscle& muscle) { return muscle.settings.collide_with_muscles && muscle.asset->tree != nullptr; }
 
 void make_room(const SurfaceMuscle& muscle, SurfaceState& state) {
@@ -35,7 +38,7 @@ void join_neighbours(ecs::World& world, ecs::Entity entity) {
     const float reach = std::max(muscle.settings.contact_distance, other.settings.contact_distance);
     pair.first_clearance = find_rest_clearance(*other.asset, *muscle.asset, reach);
     pair.second_clearance = find_rest_clearance(*muscle.asset, *other.asset, reach);
-    lay_out_pairs(usual_pair_capacity((muscle.asset->vertex_count + other.asset->vertex_count) / 4), pair.pairs);
+    lay_out_pairs(kLeastRoom + (muscle.asset->vertex_count + other.asset->vertex_count) / kVerticesPerPair, pair.pairs);
     neighbours.pairs.push_back(std::move(pair));
     make_room(other, world.get<SurfaceState>(neighbours.muscles[first]));
     make_room(muscle, world.get<SurfaceState>(entity));

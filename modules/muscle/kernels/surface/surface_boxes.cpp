@@ -45,6 +45,11 @@ void lay_out_boxes(const SurfaceTree& tree, const SurfaceAsset& asset, bool itse
   boxes.boxes.assign(tree.nodes.size(), kNothing);
   boxes.normal_ranges.assign(itself ? tree.nodes.size() : 0, kNothing);
   boxes.triangle_normals.assign(itself ? asset.triangle_count() : 0, SurfaceNormal{});
+  const std::size_t planes = itself ? asset.triangle_count() + kPlaneLanes : 0;
+  for (AlignedVector<float>* plane : {&boxes.plane_x, &boxes.plane_y, &boxes.plane_z, &boxes.plane_height}) {
+    plane->assign(planes, 0.0f);
+  }
+  boxes.own_points.assign(itself ? tree.vertices.size() : 0, SurfacePoint{});
   boxes.vertex_normals.assign(itself ? asset.vertex_count : 0, kNothing);
 }
 
@@ -67,10 +72,18 @@ void place_boxes(const SurfaceTree& tree, const SurfaceAsset& asset, std::span<c
       const std::uint32_t* vertices = &tree.vertices[node.first_vertex];
       for (std::uint32_t i = 0; i < node.vertex_count; ++i) include(box, load<4>(&points[vertices[i]].x));
       for (std::uint32_t i = 0; itself && i < node.count; ++i) {
-        include(normals, load<4>(&boxes.triangle_normals[tree.triangles[node.first + i]].x));
+        const std::uint32_t place = node.first + i, t = tree.triangles[place];
+        const SurfaceNormal& normal = boxes.triangle_normals[t];
+        const SurfacePoint& corner = points[asset.triangles[3 * std::size_t{t}]];
+        include(normals, load<4>(&normal.x));
+        boxes.plane_x[place] = normal.x;
+        boxes.plane_y[place] = normal.y;
+        boxes.plane_z[place] = normal.z;
+        boxes.plane_height[place] = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
       }
       for (std::uint32_t i = 0; itself && i < node.own; ++i) {
         include(normals, load_range(boxes.vertex_normals[vertices[i]]));
+        boxes.own_points[node.first_vertex + i] = points[vertices[i]];
       }
     }
     store_range(box, boxes.boxes[n]);

@@ -21,8 +21,13 @@ struct SurfaceBoxes {
   AlignedVector<SurfaceRange> boxes;           // m, by node
   AlignedVector<SurfaceRange> normal_ranges;   // by node; empty where the muscle does not collide with itself
   AlignedVector<SurfaceNormal> triangle_normals;
+  // The same in the order of the tree's triangles, and how high above the origin their planes are (m): four side by side.
+  AlignedVector<float> plane_x, plane_y, plane_z, plane_height;
+  AlignedVector<SurfacePoint> own_points;      // by place in the tree's vertices; of leaves' own alone
   AlignedVector<SurfaceRange> vertex_normals;  // by vertex: of its triangles, so a sharp corner faces many ways
 };
+
+inline constexpr std::size_t kPlaneLanes = 4;  // planes beyond the last triangle's, for loads that reach over it
 
 // Makes room. `itself`: for contacts with itself, too.
 void lay_out_boxes(const SurfaceTree& tree, const SurfaceAsset& asset, bool itself, SurfaceBoxes& boxes);

@@ -31,7 +31,7 @@ constexpr float kThinnest = 0.5f;
 constexpr float kDeepest = 4.0f;
 // Contact distances beside a triangle at which it counts, beside half of the margin.
 constexpr float kBeside = 0.25f;
-// Contact distances: margins. And for how many steps like the present one they are to do.
+// Contact distances: margins. And for how many steps like the present one they are to do where that is not too wide.
 constexpr float kWidestMargin = 1.5f, kNarrowestMargin = 0.4f, kStepsAhead = 3.0f;
 // Of the reach: heights that are worked out in another order round differently.
 constexpr float kSlack = 1.01f;
@@ -129,7 +129,7 @@ class Search {
     if (!may_face(n, n)) return;
     const Node& node = job_.first.tree->nodes[n];
     if (node.count > 0) {
-      leaf_vertices(node, node, first_points_, first_points_, job_.first.boxes->boxes[n], n, false);
+      leaf_of_itself(node, n);
       return;
     }
     within(n + 1);
@@ -143,8 +143,13 @@ class Search {
     if (itself_ && !may_face(a, b)) return;
     const Node &node_a = job_.first.tree->nodes[a], &node_b = second_.tree->nodes[b];
     if (node_a.count > 0 && node_b.count > 0) {
-      leaf_vertices(node_a, node_b, first_points_, second_points_, box_b, b, false);
-      leaf_vertices(node_b, node_a, second_points_, first_points_, box_a, a, !itself_);
+      if (itself_) {
+        leaf_of_itself(node_a, b);
+        leaf_of_itself(node_b, a);
+      } else {
+        leaf_of_other(node_a, node_b, box_b, false);
+        leaf_of_other(node_b, node_a, box_a, true);
+      }
     } else if (node_b.count > 0 || (node_a.count == 0 && extent(box_a) >= extent(box_b))) {
       between(a + 1, b, box_b);
       between(node_a.right, b, box_b);
@@ -154,66 +159,87 @@ class Search {
     }
   }
 
-  // Own vertices of one leaf against the triangles of another, the node `node`, whose box is `box`.
-  void leaf_vertices(const Node& of, const Node& against, const PairedPoints& vertices, const PairedPoints& triangles,
-                     const SurfaceRange& box, std::uint32_t node, bool of_second) {
-    const SurfaceTree& vertex_tree = of_second ? *second_.tree : *job_.first.tree;
-    const SurfaceTree& triangle_tree = of_second || itself_ ? *job_.first.tree : *second_.tree;
-    const std::span<const float> clearances = of_second ? second_.clearance : job_.first.clearance;
+  // Own vertices of one leaf of the muscle against the triangles of another leaf, four at once.
+  void leaf_of_itself(const Node& of, std::uint32_t node) {
+    const SurfaceTree& tree = *job_.first.tree;
+    const SurfaceBoxes& boxes = *job_.first.boxes;
+    const Node& against = tree.nodes[node];
+    const WideRange bounds = load_range(boxes.boxes[node]), facing = load_range(boxes.normal_ranges[node]);
+    for (std::uint32_t i = 0; i < of.own; ++i) {
+      const SurfacePoint& point = boxes.own_points[of.first_vertex + i];
+      const glm::vec3 p(point.x, point.y, point.z);
+      if (!near(point_range(p), bounds, reach_)) continue;
+      const std::uint32_t v = tree.vertices[of.first_vertex + i];
+      const SurfaceRange& normals = boxes.vertex_normals[v];
+      if (!(least_dot(load_range(normals), facing) < kFaces)) continue;
+      for (std::uint32_t first = 0; first < against.count; first += kPlaneLanes) {
+        std::uint32_t meeting = may_meet(p, normals, against.first + first);
+        if (against.count - first < kPlaneLanes) meeting &= (1u << (against.count - first)) - 1u;
+        for (std::uint32_t lane = 0; meeting != 0; ++lane, meeting >>= 1) {
+          if ((meeting & 1u) != 0) test_itself(v, p, tree.triangles[against.first + first + lane]);
+        }
+      }
+    }
+  }
+
+  // Bits of the four triangles from `place` on: the point is not too high above the plane, and they may face.
+  std::uint32_t may_meet(const glm::vec3& p, const SurfaceRange& normals, std::uint32_t place) const {
+    const SurfaceBoxes& boxes = *job_.first.boxes;
+    const FourLanes x = load<4>(&boxes.plane_x[place]), y = load<4>(&boxes.plane_y[place]),
+                    z = load<4>(&boxes.plane_z[place]), plane = load<4>(&boxes.plane_height[place]);
+    const FourLanes height = p.x * x + p.y * y + p.z * z - plane;
+    const auto least = [&normals](std::size_t k, FourLanes n) {
+      return lesser(normals.lower[k] * n, normals.upper[k] * n);
+    };
+    const FourLanes facing = least(0, x) + least(1, y) + least(2, z), reach = broadcast<4>(kSlack * reach_);
+    const WideInt<4> mask = (facing < broadcast<4>(kFaces)) & (height < reach) & (broadcast<4>(0.0f) - reach < height);
+    return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask.v));
+  }
+
+  void test_itself(std::uint32_t v, const glm::vec3& p, std::uint32_t t) {
+    const std::uint32_t* corners = first_points_.corners(t);
+    if (v == corners[0] || v == corners[1] || v == corners[2]) return;
+    TrianglePlane plane;
+    if (!plane.set(first_points_.at(corners[0]), first_points_.at(corners[1]), first_points_.at(corners[2]))) return;
+    test(v, p, t, plane, job_.contact_distance, first_points_, first_points_, false);
+  }
+
+  // Own vertices of one muscle's leaf against the triangles of the other's, whose box is `box`.
+  void leaf_of_other(const Node& of, const Node& against, const SurfaceRange& box, bool of_second) {
+    const PairedSurface &vertex_surface = of_second ? second_ : job_.first;
+    const PairedSurface &triangle_surface = of_second ? job_.first : second_;
+    const PairedPoints &vertices = of_second ? second_points_ : first_points_;
+    const PairedPoints &triangles = of_second ? first_points_ : second_points_;
     std::array<std::uint32_t, 3 * kSurfaceLeaf> numbers;
     std::array<glm::vec3, 3 * kSurfaceLeaf> places;
     std::size_t count = 0;
     const WideRange bounds = load_range(box);
     for (std::uint32_t i = 0; i < of.own; ++i) {
-      const std::uint32_t v = vertex_tree.vertices[of.first_vertex + i];
-      if (!clearances.empty() && !has_side(clearances[v])) continue;
+      const std::uint32_t v = vertex_surface.tree->vertices[of.first_vertex + i];
+      if (!has_side(clearance_of(vertex_surface, v))) continue;
       const glm::vec3 p = vertices.at(v);
       if (!near(point_range(p), bounds, reach_)) continue;
-      if (itself_ && !may_face_any(v, node)) continue;
       numbers[count] = v;
       places[count++] = p;
     }
-    TrianglePlane plane;
     for (std::uint32_t i = 0; count > 0 && i < against.count; ++i) {
-      const std::uint32_t t = triangle_tree.triangles[against.first + i];
+      const std::uint32_t t = triangle_surface.tree->triangles[against.first + i];
       const std::uint32_t* corners = triangles.corners(t);
-      const glm::vec3 corner = triangles.at(corners[0]);
-      bool placed = false;
+      TrianglePlane plane;
+      if (!plane.set(triangles.at(corners[0]), triangles.at(corners[1]), triangles.at(corners[2]))) continue;
       for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t v = numbers[k];
-        if (itself_ && (!may_reach(places[k] - corner, t) || !faces(v, t) || is_corner(v, corners))) continue;
-        if (!placed && !plane.set(corner, triangles.at(corners[1]), triangles.at(corners[2]))) break;
-        placed = true;
-        const float clearance = clearances.empty() ? job_.contact_distance : clearances[v];
-        test(v, places[k], t, plane, clearance, vertices, triangles, of_second);
+        test(numbers[k], places[k], t, plane, clearance_of(vertex_surface, numbers[k]), vertices, triangles, of_second);
       }
     }
   }
 
-  // Not where it is too high above the triangle's plane.
-  bool may_reach(const glm::vec3& from_corner, std::uint32_t t) const {
-    const SurfaceNormal& n = job_.first.boxes->triangle_normals[t];
-    const float height = n.x * from_corner.x + n.y * from_corner.y + n.z * from_corner.z;
-    return std::abs(height) <= kSlack * reach_;
+  float clearance_of(const PairedSurface& surface, std::uint32_t v) const {
+    return surface.clearance.empty() ? job_.contact_distance : surface.clearance[v];
   }
 
   static WideRange point_range(const glm::vec3& p) {
     const float of[4] = {p.x, p.y, p.z, 0.0f};
     return {load<4>(of), load<4>(of)};
-  }
-
-  bool may_face_any(std::uint32_t v, std::uint32_t node) const {
-    const SurfaceBoxes& boxes = *job_.first.boxes;
-    return least_dot(load_range(boxes.vertex_normals[v]), load_range(boxes.normal_ranges[node])) < kFaces;
-  }
-
-  bool faces(std::uint32_t v, std::uint32_t t) const {
-    const FourLanes normal = load<4>(&job_.first.boxes->triangle_normals[t].x);
-    return least_dot(load_range(job_.first.boxes->vertex_normals[v]), {normal, normal}) < kFaces;
-  }
-
-  static bool is_corner(std::uint32_t v, const std::uint32_t* corners) {
-    return v == corners[0] || v == corners[1] || v == corners[2];
   }
 
   void test(std::uint32_t v, const glm::vec3& p, std::uint32_t t, const TrianglePlane& plane, float clearance,
@@ -328,15 +354,17 @@ void keep_pairs(const PairsJob& job, float nearer, SurfaceBoxes& first_boxes, Su
                 SurfacePairs& pairs) {
   pairs.spare -= nearer;
   if (pairs.spare >= 0.0f) return;
-  const float most = kWidestMargin * job.contact_distance, least = kNarrowestMargin * job.contact_distance;
+  // Half of the contact distance may be used up before something is pushed that was not found.
+  const float most = kWidestMargin * job.contact_distance, credit = 0.5f * job.contact_distance;
+  const float ahead = kStepsAhead * nearer - credit;
   PairsJob now = job;
-  now.margin = std::clamp(kStepsAhead * nearer, least, most);
+  now.margin = std::clamp(ahead <= most ? ahead : nearer - credit, kNarrowestMargin * job.contact_distance, most);
   if (!first_boxes.placed) place_boxes(*job.first.tree, *job.first.asset, job.first.points, first_boxes);
   if (second_boxes != nullptr && !second_boxes->placed) {
     place_boxes(*job.second.tree, *job.second.asset, job.second.points, *second_boxes);
   }
   find_pairs(now, pairs);
-  pairs.spare = now.margin - nearer;
+  pairs.spare = now.margin + credit - nearer;
   if (second_boxes == nullptr || first_boxes.boxes.empty() || second_boxes->boxes.empty()) return;
   // Muscles that are far apart need not be asked for longer.
   const SurfaceRange &a = first_boxes.boxes[0], b = moved(second_boxes->boxes[0], job.second_to_first);
