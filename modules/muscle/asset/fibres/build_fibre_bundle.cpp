@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kMostFibres = 100'000, kMostPoints = 1'000;
 constexpr std::uint64_t kMostInAll = 10'000'000;
-constexpr float kMostPennation = 1.2f;     // rad
+constexpr float kMostPennation = 1.5f;     // rad
 constexpr double kMargin = 0.2;            // of the mean edge: how deep fibres lie under the surface at least
 
 Diagnostics check_settings(const SurfaceAsset& surface, const FibreBundleSettings& settings) {

@@ -10,7 +10,7 @@
 namespace fascicle::muscle {
 
 inline Diagnostic fibre_fault(const SurfaceAsset& surface, std::string cause, std::string remedy) {
-  return {"", 0, 0, surface.name + "/fibre_bundle", std::move(cause), std::move(remedy)};
+  return {"", 0, 0, surface.name + "/inner_fibres", std::move(cause), std::move(remedy)};
 }
 
 }  // namespace fascicle::muscle

@@ -248,7 +248,7 @@ std::vector<std::uint32_t> share_out(std::uint32_t count, const std::vector<Slab
 Result<FibreCurves> make_surface_fibres(const SurfaceAsset& surface, const FibreBundleSettings& settings) {
   if (surface.fibres.empty())
     return fibre_fault(surface, "it has no fibres on its surface",
-                       "give some with its field \"fibres\", or use the method \"isocontour\"");
+                       "give some with its field \"fibres\", or use the method \"isocontours\"");
   const TriangleMesh mesh = surface_mesh(surface);
   const ClosestPoints nearest(mesh);
   const RayDevice device;

@@ -74,7 +74,7 @@ TEST(FibreBundle, SettingsOutOfRangeAreToldTogether) {
   settings.points = 1;
   settings.pennation = std::numeric_limits<float>::quiet_NaN();
   const std::string text = fault(*tube, settings);
-  EXPECT_THAT(text, HasSubstr("tube/fibre_bundle: 0 fibres"));
+  EXPECT_THAT(text, HasSubstr("tube/inner_fibres: 0 fibres"));
   EXPECT_THAT(text, HasSubstr("1 points a fibre"));
   EXPECT_THAT(text, HasSubstr("a pennation of nan rad"));
   settings = {.count = 100'000, .points = 1'000};
