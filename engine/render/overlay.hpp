@@ -78,7 +78,8 @@ struct OverlayModel {
   std::span<const OverlaySwitch> switches;
   std::span<const OverlaySlider> sliders;
   const char* item_heading = "item";
-  std::array<const char*, kOverlayValues> value_headings = {"", "", "", "", "", "", "", ""};  // up to the first empty
+  // Up to the first that is empty or null.
+  std::array<const char*, kOverlayValues> value_headings = {};
   std::span<const OverlayItem> items;
   const OverlayTask* task = nullptr;
   std::span<const std::string> errors;    // shown in red until gone from the model

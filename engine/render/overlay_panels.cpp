@@ -139,7 +139,8 @@ void lay_out_switches(const OverlayModel& model, OverlayActions& actions) {
 
 std::size_t count_values(const OverlayModel& model) {
   std::size_t count = 0;
-  while (count < kOverlayValues && model.value_headings[count][0] != '\0') ++count;
+  const auto is_heading = [](const char* text) { return text != nullptr && text[0] != '\0'; };
+  while (count < kOverlayValues && is_heading(model.value_headings[count])) ++count;
   return count;
 }
 
@@ -286,7 +287,10 @@ OverlayActions lay_out_overlay(const OverlayModel& model, float width, float hei
     const float values_width = kValueWidth * static_cast<float>(count_values(model));
     const float item_width = std::max(kNameWidth + values_width + 30.0f, 460.0f);
     ImGui::SetNextWindowPos(ImVec2(width - item_width - kMargin, kMargin), ImGuiCond_Always);
-    ImGui::SetNextWindowSize(ImVec2(item_width, std::min(0.62f * height, tallest)), ImGuiCond_Always);
+    // The filter, the headings and a line an item, and a line to spare for the window's and the table's borders.
+    const float lines = static_cast<float>(model.items.size()) + 2.0f;
+    const float wanted = ImGui::GetFrameHeightWithSpacing() + lines * ImGui::GetFrameHeightWithSpacing();
+    ImGui::SetNextWindowSize(ImVec2(item_width, std::min({wanted, 0.62f * height, tallest})), ImGuiCond_Always);
     if (ImGui::Begin("##item list", nullptr, kPanel)) lay_out_items(model, memory, actions);
     ImGui::End();
   }
