@@ -410,6 +410,14 @@ FASCICLE_INLINE __m128 load_record(const float* records, const int* index, int l
   return _mm_load_ps(records + 4 * static_cast<long>(index[lane]));
 }
 
+#if defined(__AVX512F__)
+FASCICLE_INLINE __m256 join_two(__m128 a, __m128 b) {
+  return _mm256_mask_broadcast_f32x4(_mm256_castps128_ps256(a), 0xf0, b);  // half the time of an insertion
+}
+#elif defined(__AVX2__)
+FASCICLE_INLINE __m256 join_two(__m128 a, __m128 b) { return _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1); }
+#endif
+
 template <int N>
 FASCICLE_INLINE WideRecord<N> load_records(const float* records, const int* index) {
   if constexpr (!kIsNative<N>) {
@@ -424,8 +432,7 @@ FASCICLE_INLINE WideRecord<N> load_records(const float* records, const int* inde
   } else if constexpr (N == 8) {
     __m256 row[4];  // of lanes i and i + 4
     for (int i = 0; i < 4; ++i) {
-      row[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(load_record(records, index, i)),
-                                    load_record(records, index, i + 4), 1);
+      row[i] = join_two(load_record(records, index, i), load_record(records, index, i + 4));
     }
     const __m256 xy_lo = _mm256_unpacklo_ps(row[0], row[1]), zw_lo = _mm256_unpackhi_ps(row[0], row[1]);
     const __m256 xy_hi = _mm256_unpacklo_ps(row[2], row[3]), zw_hi = _mm256_unpackhi_ps(row[2], row[3]);
@@ -436,10 +443,8 @@ FASCICLE_INLINE WideRecord<N> load_records(const float* records, const int* inde
   } else {
     __m512 row[4];  // of lanes i, i + 4, i + 8 and i + 12
     for (int i = 0; i < 4; ++i) {
-      const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(load_record(records, index, i)),
-                                             load_record(records, index, i + 4), 1);
-      const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(load_record(records, index, i + 8)),
-                                             load_record(records, index, i + 12), 1);
+      const __m256 lo = join_two(load_record(records, index, i), load_record(records, index, i + 4));
+      const __m256 hi = join_two(load_record(records, index, i + 8), load_record(records, index, i + 12));
       row[i] = _mm512_insertf32x8(_mm512_castps256_ps512(lo), hi, 1);
     }
     const __m512 xy_lo = _mm512_unpacklo_ps(row[0], row[1]), zw_lo = _mm512_unpackhi_ps(row[0], row[1]);
@@ -538,13 +543,10 @@ FASCICLE_INLINE WideFloat<N> repeat_record(const float* record) {
 }
 FASCICLE_INLINE WideFloat<16> join_records(const float* a, const float* b, const float* c, const float* d) {
 #if defined(__AVX512F__)
-  __m512 all = _mm512_castps128_ps512(_mm_loadu_ps(a));
-  all = _mm512_mask_broadcast_f32x4(all, 0x00f0, _mm_loadu_ps(b));
-  all = _mm512_mask_broadcast_f32x4(all, 0x0f00, _mm_loadu_ps(c));
-  return {_mm512_mask_broadcast_f32x4(all, 0xf000, _mm_loadu_ps(d))};
+  const __m256 lo = join_two(_mm_loadu_ps(a), _mm_loadu_ps(b)), hi = join_two(_mm_loadu_ps(c), _mm_loadu_ps(d));
+  return {_mm512_insertf32x8(_mm512_castps256_ps512(lo), hi, 1)};
 #elif defined(__AVX2__)
-  return {{_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1)},
-          {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(c)), _mm_loadu_ps(d), 1)}};
+  return {{join_two(_mm_loadu_ps(a), _mm_loadu_ps(b))}, {join_two(_mm_loadu_ps(c), _mm_loadu_ps(d))}};
 #else
   return {{{_mm_loadu_ps(a)}, {_mm_loadu_ps(b)}}, {{_mm_loadu_ps(c)}, {_mm_loadu_ps(d)}}};
 #endif

@@ -2,18 +2,19 @@
 //
 //   pbd_constraints/gluteus/LEVEL   one pass over edges and dihedral angles, each counted as a constraint, in the
 //                                   scene's fullest flexion
-//   pbd_step/SCENE/LEVEL            whole steps through the scene, mean of all its frames: prediction, all constraints,
-//                                   bones; what the quality figures of `fascicle-cook surface SCENE` are of
+//   pbd_step/SCENE/LEVEL            whole steps through the scene, mean and median of its frames: prediction, all
+//                                   constraints, bones; what `fascicle-cook surface SCENE` gives the quality of
 //   pbd_step_3/gluteus/LEVEL        the paper's amount of work: 3 substeps, against the femur and a copy far away
 //   pbd_step/gluteus/N/THREADS      N muscles side by side through the flexion
 //   pbd_size/VERTICES/LEVEL         constraints, volume, prediction and velocities of a sphere, once
 //
 // `_reference` is the plain scalar code of the same equations, compiled with the same flags. M_constraints counts
 // millions a second; GFMA and L2_GB are what the machine can do at most, by the same clock: a hinge (two constraints)
-// is about 110 multiplications, 90 additions, 4 quotients and a root, none of them fused, and moves 160 bytes in and out
-// of a core. A label quotes the configuration. Only the spheres go without the real data.
+// is about 110 multiplications, 90 additions, 4 quotients and a root, none of them fused, and moves 160 bytes in and
+// out of a core. A label quotes the configuration. Only the spheres go without the real data.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <ctime>
@@ -191,6 +192,7 @@ void whole_steps(benchmark::State& state, const std::string& scene, bool paper, 
   if (!found.scene) return state.SkipWithError("the scene or the real data is not there");
   const Recording recording = paper ? as_the_paper(found) : found;
   Player player(recording, kernels_of(level, reference));
+  std::vector<double> times;  // ms
   std::size_t frame = 0;
   for (auto _ : state) {
     if (frame == recording.frames.size()) {
@@ -199,8 +201,13 @@ void whole_steps(benchmark::State& state, const std::string& scene, bool paper, 
     }
     const std::clock_t start = std::clock();
     player.step(frame++);
-    state.SetIterationTime(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    state.SetIterationTime(seconds);
+    times.push_back(1.0e3 * seconds);
   }
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  state.counters["ms_median"] = *middle;
   const bool same = frame == recording.frames.size() && player.points().size() == found.end.size() &&
                     std::equal(found.end.begin(), found.end.end(), player.points().begin(),
                                [](const SurfacePoint& a, const SurfacePoint& b) {
