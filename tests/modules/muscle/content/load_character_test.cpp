@@ -59,6 +59,21 @@ TEST_F(LoadCharacter, FillsEveryPart) {
                                        folder.path() / "legs.fit.json"));
 }
 
+// A character on another's muscles takes the fits that are stored beside that one: what they are good for, their hashes
+// tell. Here they are broken, which is told and does no harm.
+TEST_F(LoadCharacter, LooksForStoredFitsWhereItsMusclesComeFrom) {
+  folder.write("shapes.gltf", kShapes);
+  folder.write("base.character.json", kLegs);
+  folder.write("base.fit.json", "no JSON");
+  std::string text(kLegs);
+  text.replace(text.find("\"muscles\": ["), std::string::npos, "\"muscles_from\": \"base.character.json\"\n}\n");
+  const auto loaded = load_character(folder.write("legs.character.json", text));
+  ASSERT_TRUE(loaded.ok()) << to_text(loaded.diagnostics());
+  EXPECT_EQ((*loaded)->descriptions.size(), 3u);
+  EXPECT_THAT(to_text(loaded.diagnostics()), HasSubstr("base.fit.json:1:1: the stored fits cannot be used"));
+  EXPECT_THAT((*loaded)->files, testing::IsSupersetOf({folder.path() / "legs.fit.json", folder.path() / "base.fit.json"}));
+}
+
 TEST_F(LoadCharacter, MuscleFieldsGoBeforeTheFilesAndOptionsBeforeBoth) {
   const auto legs = load(kLegs);
   ASSERT_TRUE(legs);
