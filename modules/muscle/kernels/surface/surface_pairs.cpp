@@ -199,6 +199,10 @@ class Search {
   void test_itself(std::uint32_t v, const glm::vec3& p, std::uint32_t t) {
     const std::uint32_t* corners = first_points_.corners(t);
     if (v == corners[0] || v == corners[1] || v == corners[2]) return;
+    const std::span<const SurfacePoint> points = job_.first.points;
+    WideRange box = point_range(first_points_.at(corners[0]));
+    for (std::size_t k = 1; k < 3; ++k) include(box, load<4>(&points[corners[k]].x));
+    if (!near(point_range(p), box, reach_)) return;
     TrianglePlane plane;
     if (!plane.set(first_points_.at(corners[0]), first_points_.at(corners[1]), first_points_.at(corners[2]))) return;
     test(v, p, t, plane, job_.contact_distance, first_points_, first_points_, false);
