@@ -23,6 +23,13 @@ using namespace muscle;
 
 constexpr std::size_t kChunk = 128;
 
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 void check(const SurfaceAsset& surface, const SurfaceState& state, const FibreBundle& bundle, std::uint64_t step,
            FibrePlay& play) {
   TriangleMesh mesh = surface_mesh(surface);
@@ -58,6 +65,8 @@ std::vector<FibrePlay> play_fibres(const std::shared_ptr<const SceneAsset>& scen
   ecs::World& world = simulation.world();
   std::vector<FibrePlay> plays;
   std::vector<ecs::Entity> entities;
+  std::vector<std::vector<double>> costs;  // us, by muscle, by step
+  std::vector<double> step_costs;
   for (const MuscleFibres& muscle : muscles) {
     ecs::Entity found = ecs::kNoEntity;
     world.view<const SurfaceMuscle>().each([&](ecs::Entity entity, const SurfaceMuscle& spawned) {
@@ -66,21 +75,21 @@ std::vector<FibrePlay> play_fibres(const std::shared_ptr<const SceneAsset>& scen
     if (found == ecs::kNoEntity) continue;
     add_fibres(world, found, muscle.bundle);
     entities.push_back(found);
+    costs.emplace_back();
     plays.push_back({.muscle = muscle.surface->name});
   }
   const auto frames = static_cast<std::uint64_t>(std::max(scene->frames, 0));
   for (std::uint64_t step = 1; step <= frames; ++step) {
     const std::int64_t start = monotonic_ns();
     simulation.step();
-    const double step_us = 1e-3 * static_cast<double>(monotonic_ns() - start);
+    step_costs.push_back(1e-3 * static_cast<double>(monotonic_ns() - start));
     for (std::size_t i = 0; i < plays.size(); ++i) {
       FibrePlay& play = plays[i];
       FibreBundle& bundle = world.get<FibreBundle>(entities[i]);
       const SurfaceState& state = world.get<SurfaceState>(entities[i]);
       const std::int64_t begin = monotonic_ns();
       measure_fibre_bundle(state, bundle);  // once more, to be timed
-      play.fibres_us += 1e-3 * static_cast<double>(monotonic_ns() - begin);
-      play.step_us += step_us;
+      costs[i].push_back(1e-3 * static_cast<double>(monotonic_ns() - begin));
       ++play.steps;
       const double ratio = static_cast<double>(bundle.length_ratio_mean);
       play.least_ratio = std::min(play.least_ratio, ratio);
@@ -89,10 +98,9 @@ std::vector<FibrePlay> play_fibres(const std::shared_ptr<const SceneAsset>& scen
       if (step % every == 0) check(*world.get<SurfaceMuscle>(entities[i]).asset, state, bundle, step, play);
     }
   }
-  for (FibrePlay& play : plays) {
-    if (play.steps == 0) continue;
-    play.fibres_us /= static_cast<double>(play.steps);
-    play.step_us /= static_cast<double>(play.steps);
+  for (std::size_t i = 0; i < plays.size(); ++i) {
+    plays[i].fibres_us = median(costs[i]);
+    plays[i].step_us = median(step_costs);
   }
   return plays;
 }

@@ -20,7 +20,7 @@ struct FibrePlay {
   std::size_t self_intersections = 0;        // pairs of triangles of the surface that cross, at that step
   double furthest = 0.0;                     // m, outside, at any step
   double least_ratio = 1.0, most_ratio = 1.0, last_ratio = 1.0;  // mean length to rest
-  double fibres_us = 0.0, step_us = 0.0;     // mean a step: all of this muscle's fibres; the whole simulation
+  double fibres_us = 0.0, step_us = 0.0;     // median over the steps: this muscle's fibres; the whole simulation
 };
 
 // One entry for each of `muscles` that the scene has. Every `every`th step is checked. One worker, so that times mean
