@@ -502,7 +502,7 @@ FASCICLE_INLINE void store_records_at(WideRecord<N> a, float* records, const int
 // --- N floats as N / 4 records side by side.
 
 // Every record's floats in another order: the i-th of the answer is number (kOrder >> 2 i) & 3.
-inline constexpr int kYzxw = 0xc9, kAllW = 0xff;
+inline constexpr int kYzxw = 0xc9, kAllW = 0xff, kYxwz = 0xb1, kZwxy = 0x4e;
 template <int kOrder, int N>
 FASCICLE_INLINE WideFloat<N> reorder(WideFloat<N> a) {
   if constexpr (!kIsNative<N>) return {reorder<kOrder>(a.lo), reorder<kOrder>(a.hi)};
@@ -549,6 +549,21 @@ FASCICLE_INLINE WideFloat<16> join_records(const float* a, const float* b, const
   return {{join_two(_mm_loadu_ps(a), _mm_loadu_ps(b))}, {join_two(_mm_loadu_ps(c), _mm_loadu_ps(d))}};
 #else
   return {{{_mm_loadu_ps(a)}, {_mm_loadu_ps(b)}}, {{_mm_loadu_ps(c)}, {_mm_loadu_ps(d)}}};
+#endif
+}
+
+// Four times four unsigned numbers of 16 bits, from any addresses.
+FASCICLE_INLINE WideInt<16> join_shorts(const void* a, const void* b, const void* c, const void* d) {
+  const auto load_four = [](const void* from) { return _mm_cvtepu16_epi32(_mm_loadl_epi64((const __m128i*)from)); };
+  const __m128 records[4] = {_mm_castsi128_ps(load_four(a)), _mm_castsi128_ps(load_four(b)),
+                             _mm_castsi128_ps(load_four(c)), _mm_castsi128_ps(load_four(d))};
+#if defined(__AVX512F__)
+  const __m256 lo = join_two(records[0], records[1]), hi = join_two(records[2], records[3]);
+  return bits_of(WideFloat<16>{_mm512_insertf32x8(_mm512_castps256_ps512(lo), hi, 1)});
+#elif defined(__AVX2__)
+  return bits_of(WideFloat<16>{{join_two(records[0], records[1])}, {join_two(records[2], records[3])}});
+#else
+  return bits_of(WideFloat<16>{{{records[0]}, {records[1]}}, {{records[2]}, {records[3]}}});
 #endif
 }
 

@@ -146,6 +146,16 @@ void expect_agreement(const Muscle& start) {
 TEST(SurfaceKernels, GiveTheSameBitsOnAllInstructionSets) { expect_same_bits(sphere()); }
 TEST(SurfaceKernels, AgreeWithThePlainCode) { expect_agreement(sphere()); }
 
+// One carrier that moves has a way of its own.
+TEST(SurfaceKernels, DoSoWhereOnlyOneCarrierMoves) {
+  for (std::size_t mover = 0; mover < 3; ++mover) {
+    Muscle muscle = sphere();
+    for (std::size_t i = 0; i < muscle.moved.size(); ++i) muscle.moved[i] *= i / 12 == mover ? 1.0f : 0.0f;
+    expect_same_bits(muscle);
+    expect_agreement(muscle);
+  }
+}
+
 TEST(SurfaceKernels, OnARealMuscle) {
   FASCICLE_SKIP_WITHOUT_DATA("pbd/iliacus.vtk");
   auto mesh = read_vtk(fascicle::test::data_folder() / "pbd/iliacus.vtk");
