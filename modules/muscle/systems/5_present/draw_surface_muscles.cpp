@@ -1,6 +1,7 @@
 #include "modules/muscle/systems/5_present/draw_surface_muscles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -13,7 +14,9 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr float kShownStretch = 0.2f;  // of a fibre: the colour's end
+constexpr float kShownStretch = 0.3f;  // of a fibre: the colour's end
+constexpr float kDarkest = 0.55f;      // of a fibre: brightness beside the brightest
+constexpr float kGolden = 0.61803399f;
 const glm::vec4 kFibreAtRest(0.98f, 0.90f, 0.74f, 1.0f);
 const glm::vec4 kFibreShort(0.30f, 0.62f, 1.0f, 1.0f);
 const glm::vec4 kFibreLong(1.0f, 0.34f, 0.16f, 1.0f);
@@ -36,7 +39,8 @@ void write_fibres(const SurfaceState& state, const FibreBundle& bundle, std::spa
   if (vertices.size() != points * asset.count || bundle.points.size() < vertices.size()) return;
   for (std::size_t i = 0; i < asset.count; ++i) {
     const float rest = asset.rest_length[i];
-    const std::uint32_t colour = fibre_colour(rest > 0.0f ? bundle.length[i] / rest : 1.0f);
+    const std::uint32_t colour =
+        fibre_colour(rest > 0.0f ? bundle.length[i] / rest : 1.0f, static_cast<std::uint32_t>(i));
     for (std::size_t k = i * points; k < (i + 1) * points; ++k) {
       const SurfacePoint& p = bundle.points[k];
       vertices[k] = {glm::vec3(state.frame * glm::vec4(p.x, p.y, p.z, 1.0f)), colour};
@@ -57,10 +61,12 @@ std::vector<std::uint32_t> make_fibre_indices(const FibreBundleAsset& bundle) {
   return indices;
 }
 
-std::uint32_t fibre_colour(float length_ratio) {
+std::uint32_t fibre_colour(float length_ratio, std::uint32_t index) {
   const float stretch = std::clamp((length_ratio - 1.0f) / kShownStretch, -1.0f, 1.0f);
-  return pack_colour(stretch < 0.0f ? glm::mix(kFibreAtRest, kFibreShort, -stretch)
-                                    : glm::mix(kFibreAtRest, kFibreLong, stretch));
+  const glm::vec4 colour = glm::mix(kFibreAtRest, stretch < 0.0f ? kFibreShort : kFibreLong, std::abs(stretch));
+  const float place = kGolden * static_cast<float>(index);
+  const float brightness = glm::mix(kDarkest, 1.0f, place - std::floor(place));
+  return pack_colour(glm::vec4(brightness * glm::vec3(colour), 1.0f));
 }
 
 void upload_surface_muscles(ecs::View<const SurfaceMuscle, const DrawnSurface, DrawnSurfaceMuscle> muscles,

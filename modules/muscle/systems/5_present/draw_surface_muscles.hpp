@@ -25,9 +25,9 @@ struct DrawnSurfaceMuscle {
 // Line strips along a bundle's fibres, in the order of FibreBundle::points.
 std::vector<std::uint32_t> make_fibre_indices(const FibreBundleAsset& bundle);
 
-// A fibre's colour by how long it is beside its length at rest: pale as it is there, blue where it is a fifth shorter
-// or more, red where it is a fifth longer.
-std::uint32_t fibre_colour(float length_ratio);
+// The colour of fibre `index` by how long it is beside its length at rest: pale as it is there, the bluer the shorter and
+// the redder the longer, up to three tenths. Neighbours differ in brightness, so that they can be told apart.
+std::uint32_t fibre_colour(float length_ratio, std::uint32_t index);
 
 // Copies vertices, tendon-coloured where they are attached, and fibres into the renderer.
 void upload_surface_muscles(ecs::View<const SurfaceMuscle, const DrawnSurface, DrawnSurfaceMuscle> muscles,

@@ -25,12 +25,15 @@ TEST(FibreIndices, AStripAFibre) {
 }
 
 TEST(FibreColour, TellsLongerFromShorterAndEndsSomewhere) {
-  EXPECT_GT(red(fibre_colour(1.1f)), blue(fibre_colour(1.1f)) + 60);
-  EXPECT_GT(blue(fibre_colour(0.85f)), red(fibre_colour(0.85f)) + 60);
-  EXPECT_EQ(fibre_colour(1.2f), fibre_colour(7.0f));
-  EXPECT_EQ(fibre_colour(0.8f), fibre_colour(0.0f));
-  EXPECT_NE(fibre_colour(1.0f), fibre_colour(1.01f));
-  EXPECT_EQ(fibre_colour(1.0f) >> 24, 0xffu) << "opaque";
+  for (const std::uint32_t index : {0u, 1u, 7u, 999u}) {
+    EXPECT_GT(red(fibre_colour(1.2f, index)), blue(fibre_colour(1.2f, index)) + 40);
+    EXPECT_GT(blue(fibre_colour(0.75f, index)), red(fibre_colour(0.75f, index)) + 40);
+    EXPECT_EQ(fibre_colour(1.3f, index), fibre_colour(7.0f, index));
+    EXPECT_EQ(fibre_colour(0.7f, index), fibre_colour(0.0f, index));
+    EXPECT_NE(fibre_colour(1.0f, index), fibre_colour(1.02f, index));
+    EXPECT_EQ(fibre_colour(1.0f, index) >> 24, 0xffu) << "opaque";
+    EXPECT_NE(fibre_colour(1.0f, index), fibre_colour(1.0f, index + 1)) << "told apart";
+  }
 }
 
 TEST(MarkSurfaces, AttachedVerticesByTheirEndAndBonesThatAreTouched) {
