@@ -12,7 +12,7 @@ namespace {
 
 using Figure = std::function<double(const SurfaceStepFigures&)>;
 
-constexpr std::uint64_t kFlexed = 100, kRested = 300;  // steps
+constexpr std::uint64_t kFlexed = kFlexedStep, kRested = 300;
 
 double off_one(double ratio) { return std::abs(ratio - 1.0); }
 
@@ -106,7 +106,7 @@ std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceM
   const auto turned = [](const SurfaceStepFigures& s) { return s.turned; };
   const auto volume = [](const SurfaceStepFigures& s) { return off_one(s.volume_ratio); };
   Checker checker(run, !is("box"));
-  checker.at_every_step("steps that fell back to the carried shape, so far,", 0.0, "", [](const auto& s) { return s.fallbacks; });
+  checker.at_every_step("fallbacks so far", 0.0, "", [](const auto& s) { return s.fallbacks; });
   checker.at_every_step("deepest point in a bone", 0.5, " mm", [](const auto& s) { return s.bone_depth_max; });
   if (!run.asset->attached.empty()) {
     checker.at_every_step("attachment error", 0.1, " mm", [](const auto& s) { return s.attachment_error_max; });
@@ -131,7 +131,8 @@ std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceM
   }
   if (is("iliacus")) {
     checker.attached_vertices(267);
-    checker.at_step(kRested, "furthest vertex from rest", 2.0, " mm", [](const auto& s) { return s.rest_distance_max; });
+    checker.at_step(kRested, "furthest vertex from rest", 2.0, " mm",
+                    [](const auto& s) { return s.rest_distance_max; });
   }
   check_fibres(checker, run);
   return checker.finish();

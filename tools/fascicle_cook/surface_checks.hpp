@@ -1,5 +1,5 @@
-// What is asked of the surface muscles of the scenes that the method's authors published (4.3): limits on the figures of
-// a run, each with what was found.
+// What is asked of the surface muscles of the scenes that the method's authors published (4.3): limits on the figures
+// of a run, each with what was found.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace fascicle::cook {
 
-// A run is void from the step on at which the muscle is deeper than this in a bone, has lost or gained this much of its
-// volume (not the box, which has no room for it), or an attached vertex is this far from its bone. A muscle that is only
-// carried by its bones, or left where it is, comes back to its shape by itself: that says nothing about the solver.
+// A run is void from the step on at which the muscle is deeper than this in a bone, has lost or gained this much of
+// its volume (not the box, which has no room for it), or an attached vertex is this far from its bone. A muscle that is
+// only carried by its bones, or left where it is, comes back to its shape by itself: that says nothing about the
+// solver.
 inline constexpr double kVoidDepth = 2.0;       // mm
 inline constexpr double kVoidVolume = 0.05;     // of the volume at rest
 inline constexpr double kVoidAttachment = 2.0;  // mm

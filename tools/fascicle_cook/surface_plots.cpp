@@ -26,7 +26,8 @@ ChartLine line_of(const SurfaceMuscleRun& muscle, const char* name, const char* 
 
 // Colours round the wheel, so that neighbouring fibres can be told from each other.
 std::string fibre_colour(std::size_t fibre) {
-  constexpr std::array kColours = {"#2a6fbb", "#d9661f", "#3a9a4b", "#8a5fb4", "#b8443f", "#5b7a99", "#c29a1d", "#4aa3a2"};
+  constexpr std::array kColours = {"#2a6fbb", "#d9661f", "#3a9a4b", "#8a5fb4",
+                                   "#b8443f", "#5b7a99", "#c29a1d", "#4aa3a2"};
   return kColours[fibre % kColours.size()];
 }
 
@@ -47,7 +48,8 @@ std::vector<SurfacePlot> surface_plots(const SurfaceRun& run, const SurfaceMuscl
   const auto& s = muscle.settings;
   const std::string subtitle =
       fmt::format("{}; {} substeps of 1/{:g} s{}", run.scene, s.substeps,
-                  static_cast<double>(run.step_hz) * s.substeps, run.options.solver == SurfaceSolver::kOn ? "" : "; solver off");
+                  static_cast<double>(run.step_hz) * s.substeps,
+                  run.options.solver == SurfaceSolver::kOn ? "" : "; solver off");
   std::vector<SurfacePlot> plots;
   const auto add = [&](const char* what, const std::string& title, const std::vector<Chart>& charts) {
     plots.push_back({what, draw_charts(muscle.asset->name + ": " + title, subtitle, charts)});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/animation/skeleton.hpp"
@@ -31,6 +32,7 @@ std::shared_ptr<const SurfaceAsset> softened(const SurfaceAsset& asset, const Su
 
 void apply(const SurfaceRunOptions& options, ecs::World& world) {
   world.view<SurfaceMuscle, SurfaceState>().each([&](SurfaceMuscle& muscle, SurfaceState& state) {
+    muscle.settings.substeps *= options.substeps_times;
     state.enabled = options.solver == SurfaceSolver::kOn;
     // A muscle whose bones are not all there is left alone.
     if (options.solver == SurfaceSolver::kFrozen) muscle.rest_bones.emplace_back(1.0f);
@@ -61,6 +63,15 @@ std::vector<std::string> bone_names(const game::Simulation& simulation, const Su
     }
   }
   return names;
+}
+
+std::vector<glm::vec3> shape_of(const ecs::World& world, const game::SurfaceFigures& figures) {
+  const SurfaceState& state = world.get<SurfaceState>(figures.entity);
+  std::vector<glm::vec3> shape;
+  for (std::uint32_t v = 0; v < figures.asset->vertex_count; ++v) {
+    shape.emplace_back(state.points[v].x, state.points[v].y, state.points[v].z);
+  }
+  return shape;
 }
 
 SurfaceStepFigures to_step(const game::SurfaceFigures& figures, double step_ms) {
@@ -129,12 +140,25 @@ SurfaceRun run_surfaces(const std::shared_ptr<const SceneAsset>& scene, const Su
     const std::vector<game::SurfaceFigures>& figures = meters.measure(simulation);
     for (std::size_t m = 0; m < std::min(figures.size(), run.muscles.size()); ++m) {
       run.muscles[m].steps.push_back(to_step(figures[m], step_ms));
+      if (i + 1 == kFlexedStep) run.muscles[m].flexed = shape_of(world, figures[m]);
       const std::vector<double>& ratios = figures[m].fibre_ratios;
       run.muscles[m].fibre_ratios.resize(ratios.size());
       for (std::size_t f = 0; f < ratios.size(); ++f) run.muscles[m].fibre_ratios[f].push_back(ratios[f]);
     }
   }
   return run;
+}
+
+ShapeDifference compare_flexed(const SurfaceMuscleRun& one, const SurfaceMuscleRun& other) {
+  ShapeDifference difference;
+  const std::size_t count = std::min(one.flexed.size(), other.flexed.size());
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto distance = static_cast<double>(glm::distance(one.flexed[v], other.flexed[v]));
+    difference.largest = std::max(difference.largest, distance);
+    difference.mean += distance / static_cast<double>(count);
+  }
+  const double size = one.asset->size > 0.0f ? static_cast<double>(one.asset->size) : 1.0;
+  return {difference.largest / size, difference.mean / size};
 }
 
 }  // namespace fascicle::cook

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 
@@ -22,6 +24,7 @@ struct SurfaceRunOptions {
   std::uint64_t frames = 0;  // steps; 0: the scene's
   int workers = 1;
   SurfaceSolver solver = SurfaceSolver::kOn;
+  std::uint32_t substeps_times = 1;  // those of the scene: its stiffness should not hang on them
   // Parts of it that are switched off alone.
   bool edges = true, angles = true, volume = true, bones = true;
 };
@@ -44,12 +47,15 @@ struct SurfaceStepFigures {
   double step_ms = 0.0;                      // of the whole simulation
 };
 
+inline constexpr std::uint64_t kFlexedStep = 100;  // of the published scenes: the end of the flexion
+
 struct SurfaceMuscleRun {
   std::shared_ptr<const muscle::SurfaceAsset> asset;
   muscle::SurfaceSettings settings;                // that it ran with
   std::vector<std::string> bones;                  // by attachment: its bone's name
   std::size_t attached_at_insertion = 0;           // vertices
   std::vector<SurfaceStepFigures> steps;           // from step 1
+  std::vector<glm::vec3> flexed;                   // m, by vertex, at kFlexedStep; empty: the run ended before
   std::vector<double> fibre_rest;                  // mm, by fibre; empty: it has none
   std::vector<std::vector<double>> fibre_ratios;   // by fibre, by step: its length to rest
 };
@@ -63,5 +69,11 @@ struct SurfaceRun {
 
 // A scene without surface muscles gives an empty list.
 SurfaceRun run_surfaces(const std::shared_ptr<const muscle::SceneAsset>& scene, const SurfaceRunOptions& options);
+
+// How far the vertices of two runs of one muscle are from each other at kFlexedStep, as parts of the muscle's size.
+struct ShapeDifference {
+  double largest = 0.0, mean = 0.0;
+};
+ShapeDifference compare_flexed(const SurfaceMuscleRun& one, const SurfaceMuscleRun& other);
 
 }  // namespace fascicle::cook

@@ -90,7 +90,7 @@ TEST(CheckSurface, EveryFaultFailsItsCheck) {
   using F = SurfaceStepFigures;
   const Fault faults[] = {
       {"hip-gluteus", 57, &F::volume_ratio, 0.994, "|volume ratio - 1| at every step"},
-      {"hip-gluteus", 57, &F::fallbacks, 1.0, "steps that fell back to the carried shape, so far, at every step"},
+      {"hip-gluteus", 57, &F::fallbacks, 1.0, "fallbacks so far at every step"},
       {"hip-gluteus", 3, &F::attachment_error_max, 0.2, "attachment error at every step"},
       {"hip-gluteus", 280, &F::bone_depth_max, 0.6, "deepest point in a bone at every step"},
       {"hip-gluteus", 100, &F::edge_max, 3.1, "largest edge ratio at step 100"},
@@ -149,6 +149,18 @@ TEST(CheckSurface, AVoidRunPassesNothingFromThenOn) {
     EXPECT_THAT(surface_checks_table(checks), HasSubstr("void: "));
     EXPECT_THAT(surface_checks_table(checks), HasSubstr("at step 120"));
   }
+}
+
+TEST(CompareFlexed, IsAPartOfTheMusclesSize) {
+  SurfaceMuscleRun one = faultless(0), other = faultless(0);
+  EXPECT_EQ(compare_flexed(one, other).largest, 0.0);
+  auto asset = std::make_shared<muscle::SurfaceAsset>(*one.asset);
+  asset->size = 0.2f;
+  one.asset = asset;
+  one.flexed = {{0, 0, 0}, {0.1f, 0, 0}};
+  other.flexed = {{0, 0.001f, 0}, {0.1f, 0, 0.003f}};
+  EXPECT_NEAR(compare_flexed(one, other).largest, 0.015, 1e-7);
+  EXPECT_NEAR(compare_flexed(one, other).mean, 0.01, 1e-7);
 }
 
 TEST(SurfaceTable, ShowsTheStepsAndTheWorst) {

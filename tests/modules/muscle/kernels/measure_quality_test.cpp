@@ -128,7 +128,9 @@ TEST(MeasureQuality, AnAngleChangesByWhatItIsBent) {
 TEST(MeasureQuality, TrianglesThatSwingThroughEachOther) {
   const SurfaceAsset asset = test::plain_surface(bent_pair(0.0));
   SurfaceQuality quality;
-  const auto bend = [&](double angle) { measure_quality(asset, test::to_points(bent_pair(angle).positions), {}, quality); };
+  const auto bend = [&](double angle) {
+    measure_quality(asset, test::to_points(bent_pair(angle).positions), {}, quality);
+  };
   for (double angle = 0.0; angle < 2.9; angle += 0.2) {
     bend(angle);
     ASSERT_EQ(quality.folded + quality.turned, 0u) << angle;

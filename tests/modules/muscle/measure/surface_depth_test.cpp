@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -95,7 +96,8 @@ TEST(SurfaceDepth, AttachedVerticesAndTheirNeighboursCountApart) {
   // A strip of squares of 10 mm along x, wound into a closed tube: a ring of vertices every 10 mm.
   std::vector<glm::vec2> outline;
   for (int i = 0; i < 12; ++i) {
-    outline.emplace_back(0.01 * std::cos(2.0 * 3.14159265358979 * i / 12), 0.01 * std::sin(2.0 * 3.14159265358979 * i / 12));
+    const double angle = 2.0 * std::numbers::pi * i / 12;
+    outline.emplace_back(0.01 * std::cos(angle), 0.01 * std::sin(angle));
   }
   const TriangleMesh tube = test::make_wall(outline, 0.0f, 0.06f, 6);
   SurfaceAsset asset = test::plain_surface(tube);
