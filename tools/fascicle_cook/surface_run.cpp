@@ -152,8 +152,12 @@ SurfaceRun run_surfaces(const std::shared_ptr<const SceneAsset>& scene, const Su
 ShapeDifference compare_flexed(const SurfaceMuscleRun& one, const SurfaceMuscleRun& other) {
   ShapeDifference difference;
   const std::size_t count = std::min(one.flexed.size(), other.flexed.size());
+  glm::dvec3 slid(0.0);
+  for (std::size_t v = 0; v < count && one.asset->attached.empty(); ++v) {
+    slid += (glm::dvec3(other.flexed[v]) - glm::dvec3(one.flexed[v])) / static_cast<double>(count);
+  }
   for (std::size_t v = 0; v < count; ++v) {
-    const auto distance = static_cast<double>(glm::distance(one.flexed[v], other.flexed[v]));
+    const double distance = glm::distance(glm::dvec3(one.flexed[v]) + slid, glm::dvec3(other.flexed[v]));
     difference.largest = std::max(difference.largest, distance);
     difference.mean += distance / static_cast<double>(count);
   }

@@ -70,7 +70,8 @@ struct SurfaceRun {
 // A scene without surface muscles gives an empty list.
 SurfaceRun run_surfaces(const std::shared_ptr<const muscle::SceneAsset>& scene, const SurfaceRunOptions& options);
 
-// How far the vertices of two runs of one muscle are from each other at kFlexedStep, as parts of the muscle's size.
+// How far the vertices of two runs of one muscle are from each other at kFlexedStep, as parts of the muscle's size. One
+// that is attached to nothing may have slid as a whole: that is no shape.
 struct ShapeDifference {
   double largest = 0.0, mean = 0.0;
 };

@@ -161,6 +161,9 @@ TEST(CompareFlexed, IsAPartOfTheMusclesSize) {
   other.flexed = {{0, 0.001f, 0}, {0.1f, 0, 0.003f}};
   EXPECT_NEAR(compare_flexed(one, other).largest, 0.015, 1e-7);
   EXPECT_NEAR(compare_flexed(one, other).mean, 0.01, 1e-7);
+  asset->attached.clear();
+  other.flexed = {{0, 0.001f, 0}, {0.1f, 0.001f, 0}};
+  EXPECT_NEAR(compare_flexed(one, other).largest, 0.0, 1e-7);
 }
 
 TEST(SurfaceTable, ShowsTheStepsAndTheWorst) {
