@@ -28,17 +28,6 @@ void set(SurfacePoint& p, const glm::vec3& at) {
 
 glm::dvec3 apply(const glm::dmat4& m, const glm::dvec3& p) { return glm::dvec3(m * glm::dvec4(p, 1.0)); }
 
-// Part of the way along a motion: turned evenly, moved straight. Its ends are exact.
-glm::dmat4 part_of(const RigidMotion& motion, double fraction) {
-  if (fraction >= 1.0 || motion.from == motion.to) return glm::dmat4(motion.to);
-  if (fraction <= 0.0) return glm::dmat4(motion.from);
-  const glm::dmat3 from(motion.from), to(motion.to);
-  const glm::dquat turn = glm::normalize(glm::quat_cast(to * glm::inverse(from)));
-  glm::dmat4 result(glm::mat3_cast(glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), turn, fraction)) * from);
-  result[3] = glm::mix(glm::dvec4(motion.from[3]), glm::dvec4(motion.to[3]), fraction);
-  return result;
-}
-
 // The rows that the kernels want.
 void set_rows(const glm::dmat4& moved, float* rows) {
   for (int row = 0; row < 3; ++row) {
@@ -99,16 +88,40 @@ float speed_of_fastest(const SurfaceStep& step) {
   return std::sqrt(fastest);
 }
 
+// A ball about all vertices: most bones of a character are nowhere near it.
+struct Ball {
+  glm::vec3 centre{0.0f};
+  float radius = 0.0f;  // m
+};
+
+Ball ball_about(std::span<const SurfacePoint> vertices) {
+  glm::vec3 lower = place(vertices[0]), upper = lower;
+  for (const SurfacePoint& p : vertices) {
+    lower = glm::min(lower, place(p));
+    upper = glm::max(upper, place(p));
+  }
+  return {0.5f * (lower + upper), 0.5f * glm::distance(lower, upper)};
+}
+
+bool is_far(const SurfaceBone& bone, const Ball& ball, float reach) {
+  const glm::vec3 centre(bone.to_bone * glm::vec4(ball.centre, 1.0f));
+  const glm::vec3 nearest = glm::clamp(centre, bone.field->lower(), bone.field->upper());
+  return glm::distance(centre, nearest) > ball.radius + reach;
+}
+
 void find_near(const SurfaceStep& step, float fastest, SurfaceScratch& scratch) {
   const std::span<const SurfacePoint> vertices = step.points.first(step.asset->vertex_count);
+  const Ball ball = ball_about(vertices);
   place_bones(step, scratch, 0.0, 0.0);
   for (std::size_t b = 0; b < step.bones.size(); ++b) {
     scratch.touches[b] = {};
     const std::size_t first = scratch.first_near[b];
     std::size_t count = 0;
     if (step.fields[b] != nullptr && step.settings.collide_with_bones) {
-      count = find_near_bone(scratch.bones[b], vertices, reach_of(step, scratch.bones[b], step.bones[b], fastest),
-                             std::span(scratch.near).subspan(first));
+      const float reach = reach_of(step, scratch.bones[b], step.bones[b], fastest);
+      if (!is_far(scratch.bones[b], ball, reach)) {
+        count = find_near_bone(scratch.bones[b], vertices, reach, std::span(scratch.near).subspan(first));
+      }
     }
     scratch.first_near[b + 1] = first + count;
   }
@@ -175,6 +188,16 @@ float pull_of(const SurfaceStep& step, float inverse_h2) {
 }
 
 }  // namespace
+
+glm::dmat4 part_of(const RigidMotion& motion, double fraction) {
+  if (fraction >= 1.0 || motion.from == motion.to) return glm::dmat4(motion.to);
+  if (fraction <= 0.0) return glm::dmat4(motion.from);
+  const glm::dmat3 from(motion.from), to(motion.to);
+  const glm::dquat turn = glm::normalize(glm::quat_cast(to * glm::inverse(from)));
+  glm::dmat4 result(glm::mat3_cast(glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), turn, fraction)) * from);
+  result[3] = glm::mix(glm::dvec4(motion.from[3]), glm::dvec4(motion.to[3]), fraction);
+  return result;
+}
 
 void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch) {
   scratch.before.assign(asset.vertex_count, SurfacePoint{});
@@ -256,17 +279,19 @@ double step_surface(const SurfaceStep& step, SurfaceScratch& scratch) {
   return end_step(step, scratch);
 }
 
-void carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch) {
+double carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch) {
   place_carried(step, scratch, step.points);
   forget_pairs(scratch.itself);
   ++scratch.restarts;
   for (const AttachedVertex& attached : step.asset->attached) {
     const glm::mat4& to = step.attachments[attached.attachment].to;
-    if (to == glm::mat4(1.0f)) continue;
     const glm::dvec3 rest(place(step.asset->rest[attached.vertex]));
     set(step.points[attached.vertex], glm::vec3(apply(glm::dmat4(to), rest)));
   }
   std::fill(step.velocity.begin(), step.velocity.end(), SurfacePoint{});
+  return step.kernels->measure_volume({.triangles = step.asset->triangles, .vertex_count = step.asset->vertex_count,
+                                       .points = step.points, .gradient = scratch.gradient,
+                                       .rings = &step.asset->rings}) / 6.0;
 }
 
 bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points, double volume) {

@@ -57,6 +57,8 @@ void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch);
 struct RigidMotion {
   glm::mat4 from{1.0f}, to{1.0f};
 };
+// Part of the way, 0..1: turned evenly, moved straight. Its ends are exact.
+glm::dmat4 part_of(const RigidMotion& motion, double fraction);
 
 struct SurfaceStep {
   const SurfaceAsset* asset = nullptr;
@@ -84,7 +86,8 @@ double end_step(const SurfaceStep& step, SurfaceScratch& scratch);
 
 // Where the carriers bring the rest shape, attached vertices where their bones have them, without velocities: how a
 // muscle starts, and what it falls back to. `step.*.to` counts. At rest the answer is the rest shape exactly.
-void carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch);
+// Returns its volume (m^3).
+double carry_rest_shape(const SurfaceStep& step, SurfaceScratch& scratch);
 
 // Finite, no vertex further from the first than a muscle can stretch, `volume` (m^3) one that it can have.
 bool is_sound(const SurfaceAsset& asset, std::span<const SurfacePoint> points, double volume);

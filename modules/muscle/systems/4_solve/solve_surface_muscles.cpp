@@ -121,14 +121,14 @@ struct Solve {
     state.started = true;
     follow_bones(muscle, *bones, state);
     follow_carriers(muscle, musculatures, jump, state);
-    if (jump || !state.enabled) carry_rest_shape(step_of(muscle, state), state.scratch);
+    if (jump || !state.enabled) state.volume = carry_rest_shape(step_of(muscle, state), state.scratch);
     if (!state.enabled) contacts.now.clear();
     return state.enabled && time > 0.0f;
   }
 
   void finish(const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
     if (!is_sound(*muscle.asset, state.points, state.volume)) {
-      carry_rest_shape(step_of(muscle, state), state.scratch);
+      state.volume = carry_rest_shape(step_of(muscle, state), state.scratch);
       ++state.fallbacks;
     }
     report_contacts(muscle, state, contacts);
@@ -197,7 +197,10 @@ struct Solve {
       each_solved(neighbours, substeps, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
         move_and_constrain(step, i, state.scratch);
       });
-      each_pair(neighbours, push_apart);
+      const double fraction = static_cast<double>(i + 1) / substeps;
+      each_pair(neighbours, [fraction](const TouchingMuscle& first, const TouchingMuscle& second, NeighbourPair& pair) {
+        push_apart(first, second, fraction, pair);
+      });
       each_solved(neighbours, substeps, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
         finish_substep(step, i, state.scratch);
       });

@@ -249,6 +249,7 @@ TEST(SolveSurfaceMuscles, WhatDivergesFallsBackAndIsCounted) {
   w.steps(1);
   EXPECT_EQ(w.state().fallbacks, 1u);
   EXPECT_EQ(w.rest_distance(), 0.0f);
+  EXPECT_NEAR(w.state().volume / w.asset().volume, 1.0, 1e-5);
   w.steps(5);
   EXPECT_EQ(w.state().fallbacks, 1u);
 }
@@ -304,6 +305,17 @@ TEST(SolveSurfaceMuscles, ADriverCarries) {
   EXPECT_LT(glm::distance(mean, centre), 0.004f);
   EXPECT_GT(glm::distance(w.world_point(0), start), 0.2f);
   EXPECT_NEAR(w.volume_ratio(), 1.0, 0.005);
+  // What is attached stands at its bone all the same, though the unit's sections are elsewhere.
+  SurfaceMuscleDescription attached = description;
+  attached.attachments = {{.bone = test::kPelvis, .origin = true, .vertices = {0, 1, 2, 3}}};
+  const ecs::Entity second = w.add(attached, drivers.get(), musculature);
+  w.world.get<SurfaceMuscle>(second).settings.collide_with_muscles = false;
+  w.steps(3);
+  for (const AttachedVertex& held : w.asset(1).attached) {
+    const glm::vec3 want(w.bones[test::kPelvis] * glm::inverse(w.rest[test::kPelvis]) *
+                         glm::vec4(w.rest_point(held.vertex, 1), 1.0f));
+    EXPECT_LT(glm::distance(w.world_point(held.vertex, 1), want), 2e-6f);
+  }
   // Detached, it has nothing that moves it.
   detach_muscle(w.world, muscle_entity(w.world, musculature, 0));
   w.steps(10);
