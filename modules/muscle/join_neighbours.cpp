@@ -12,8 +12,8 @@
 namespace fascicle::muscle {
 namespace {
 
-// Pairs there is room for, so that a character of dozens of muscles, most far from most others, stays small.
-constexpr std::size_t kLeastRoom = 2048, kVerticesPerPair = 2;
+// Pairs there is room for between muscles that are not near at rest: a character may have dozens.
+constexpr std::size_t kRoomApart = 4096;
 
 bool collides(const SurfaceMuscle& muscle) { return muscle.settings.collide_with_muscles && muscle.asset->tree != nullptr; }
 
@@ -38,7 +38,10 @@ void join_neighbours(ecs::World& world, ecs::Entity entity) {
     const float reach = std::max(muscle.settings.contact_distance, other.settings.contact_distance);
     pair.first_clearance = find_rest_clearance(*other.asset, *muscle.asset, reach);
     pair.second_clearance = find_rest_clearance(*muscle.asset, *other.asset, reach);
-    lay_out_pairs(kLeastRoom + (muscle.asset->vertex_count + other.asset->vertex_count) / kVerticesPerPair, pair.pairs);
+    const auto touches = [reach](float clearance) { return clearance < reach; };
+    const bool near = std::ranges::any_of(pair.first_clearance, touches);
+    const std::size_t vertices = muscle.asset->vertex_count + other.asset->vertex_count;
+    lay_out_pairs(near ? usual_pair_capacity(vertices) : kRoomApart, pair.pairs);
     neighbours.pairs.push_back(std::move(pair));
     make_room(other, world.get<SurfaceState>(neighbours.muscles[first]));
     make_room(muscle, world.get<SurfaceState>(entity));

@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-
 #include "engine/ecs/entity.hpp"
+#include "modules/muscle/kernels/surface/step_surface.hpp"
 #include "modules/muscle/kernels/surface/surface_pairs.hpp"
 
 namespace fascicle::muscle {
@@ -17,7 +16,7 @@ struct NeighbourPair {
   std::vector<float> first_clearance, second_clearance;    // m, at rest, by vertex; empty: nowhere near
   SurfacePairs pairs;
   std::uint32_t first_restarts = 0, second_restarts = 0;   // of their scratch when pairs were last found
-  glm::mat4 second_to_first{1.0f};                         // between their simulation's frames, at the last step
+  RigidMotion second_to_first;                             // between their simulation's frames, in the last step
 };
 
 struct SurfaceNeighbours {

@@ -13,11 +13,11 @@ PairedSurface paired(const TouchingMuscle& touching, std::span<const float> clea
           .boxes = &touching.state->scratch.boxes, .points = touching.state->points, .clearance = clearance};
 }
 
-PairsJob job_of(const TouchingMuscle& first, const TouchingMuscle& second, const NeighbourPair& pair) {
+PairsJob job_of(const TouchingMuscle& first, const TouchingMuscle& second, double fraction, const NeighbourPair& pair) {
   PairsJob job;
   job.first = paired(first, pair.first_clearance);
   job.second = paired(second, pair.second_clearance);
-  job.second_to_first = pair.second_to_first;
+  job.second_to_first = glm::mat4(part_of(pair.second_to_first, fraction));
   job.contact_distance =
       std::max(first.muscle->settings.contact_distance, second.muscle->settings.contact_distance);
   return job;
@@ -42,18 +42,21 @@ void find_touching(const TouchingMuscle& first, const TouchingMuscle& second, Ne
   const SurfaceState &a = *first.state, &b = *second.state;
   const glm::mat4 to_first = a.frame == b.frame ? glm::mat4(1.0f)
                                                 : glm::mat4(glm::inverse(glm::dmat4(a.frame)) * glm::dmat4(b.frame));
-  if (pair.first_restarts != a.scratch.restarts || pair.second_restarts != b.scratch.restarts) {
+  const bool restarted = pair.first_restarts != a.scratch.restarts || pair.second_restarts != b.scratch.restarts;
+  if (restarted) {
     forget_pairs(pair.pairs);
     pair.first_restarts = a.scratch.restarts;
     pair.second_restarts = b.scratch.restarts;
   }
-  const float nearer = a.scratch.nearer + b.scratch.nearer + moved_by(pair.second_to_first, to_first, b.scratch.boxes);
-  pair.second_to_first = to_first;
-  keep_pairs(job_of(first, second, pair), nearer, first.state->scratch.boxes, &second.state->scratch.boxes, pair.pairs);
+  pair.second_to_first = {.from = restarted ? to_first : pair.second_to_first.to, .to = to_first};
+  const float nearer = a.scratch.nearer + b.scratch.nearer +
+                       moved_by(pair.second_to_first.from, pair.second_to_first.to, b.scratch.boxes);
+  keep_pairs(job_of(first, second, 0.0, pair), nearer, first.state->scratch.boxes, &second.state->scratch.boxes,
+             pair.pairs);
 }
 
-void push_apart(const TouchingMuscle& first, const TouchingMuscle& second, NeighbourPair& pair) {
-  project_pairs(job_of(first, second, pair), pair.pairs);
+void push_apart(const TouchingMuscle& first, const TouchingMuscle& second, double fraction, NeighbourPair& pair) {
+  project_pairs(job_of(first, second, fraction, pair), pair.pairs);
 }
 
 }  // namespace fascicle::muscle
