@@ -5,7 +5,7 @@
 //   pbd_step/SCENE/LEVEL            whole steps through the scene, mean and median of its frames: prediction, all
 //                                   constraints, bones; what `fascicle-cook surface SCENE` gives the quality of
 //   pbd_step_3/gluteus/LEVEL        the paper's amount of work: 3 substeps, against the femur and a copy far away
-//   pbd_step/gluteus/N/THREADS      N muscles side by side through the flexion
+//   pbd_step/gluteus/N/THREADS      N muscles side by side through the flexion, by the clock and by processor time
 //   pbd_size/VERTICES/LEVEL         constraints, volume, prediction and velocities of a sphere, once
 //
 // `_reference` is the plain scalar code of the same equations, compiled with the same flags. M_constraints counts
@@ -224,6 +224,7 @@ void crowd(benchmark::State& state, std::size_t count, int threads) {
   parallel::WorkerArena arena(threads);
   std::size_t frame = 0;
   std::int64_t all = 0;
+  const std::clock_t clock = std::clock();  // of all threads
   for (auto _ : state) {
     const std::int64_t start = monotonic_ns();
     arena.execute([&] {
@@ -236,7 +237,9 @@ void crowd(benchmark::State& state, std::size_t count, int threads) {
     state.SetIterationTime(1.0e-9 * static_cast<double>(took));
     ++frame;
   }
+  const double processor = 1.0e3 * static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC;
   state.counters["ms_a_muscle"] = 1.0e-6 * static_cast<double>(all) / static_cast<double>(frame * count);
+  state.counters["cpu_ms_a_muscle"] = processor / static_cast<double>(frame * count);
   quote(state, recording.settings, level);
 }
 
