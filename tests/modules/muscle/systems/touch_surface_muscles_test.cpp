@@ -106,6 +106,28 @@ TEST(TouchSurfaceMuscles, InFramesOfTheirOwnTheyDoTheSame) {
   EXPECT_LT(depth(drawn(two, 1), drawn(two, 0)), 1e-5f);
 }
 
+// The frame bone of one goes about by centimetres a step, and neither muscle has anything to do with that.
+TEST(TouchSurfaceMuscles, AFrameThatMovesMakesNoContacts) {
+  SurfaceWorld w(still_bones(2));
+  w.add(held_ball(false, true));
+  SurfaceMuscleDescription above = held_ball(true, true, 0.1015f);
+  above.attachments[0].bone = 0;
+  above.frame_bone = 1;
+  w.add(above);
+  std::uint32_t pushed = 0;
+  for (int i = 0; i < 60; ++i) {
+    const float t = 0.4f * static_cast<float>(i);
+    w.bones[1] = glm::rotate(at({0.05f * std::sin(t), 0.0f, 0.04f * std::sin(2.0f * t)}), 0.3f * std::sin(t), {0, 1, 0});
+    w.steps(1);
+    pushed += w.world.get<SurfaceNeighbours>(w.character).pairs[0].pairs.pushed;
+    for (std::uint32_t v = 0; v < w.asset(1).vertex_count; ++v) {
+      ASSERT_LT(glm::distance(w.world_point(v, 1), w.rest_point(v, 1)), 0.0005f) << i;
+    }
+  }
+  EXPECT_EQ(pushed, 0u);
+  EXPECT_LT(w.rest_distance(0), 0.0002f);  // within a step a motion and its inverse do not take quite the same way
+}
+
 TEST(TouchSurfaceMuscles, WhatOverlapsAtRestStaysExactly) {
   SurfaceWorld w(still_bones(2));
   SurfaceMuscleDescription below = held_ball(false, true), above = held_ball(true, true, 0.097f);
