@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -35,6 +37,10 @@ struct Options {
   bool play = false;
   std::uint64_t every = 1;
 };
+
+void complain(const Options& options, std::string cause, std::string remedy) {
+  print_diagnostics({.errors = {{options.input, 0, 0, {}, std::move(cause), std::move(remedy)}}, .warnings = {}});
+}
 
 // What was named, as a scene or as a character of its own.
 struct Source {
@@ -71,6 +77,7 @@ muscle::FibreBundleSettings choose(const Options& options, const muscle::Surface
   if (!options.method.empty()) {
     settings.method = options.method == "surface" ? muscle::FibreMethod::kSurface : muscle::FibreMethod::kIsocontour;
   }
+  if (!options.arrangement.empty() && options.method.empty()) settings.method = muscle::FibreMethod::kIsocontour;
   if (options.arrangement == "parallel") settings.arrangement = muscle::FibreArrangement::kParallel;
   if (options.arrangement == "pennate") settings.arrangement = muscle::FibreArrangement::kPennate;
   if (options.arrangement == "fan") settings.arrangement = muscle::FibreArrangement::kFan;
@@ -97,14 +104,11 @@ std::vector<MuscleFibres> make(const Options& options, const Source& source, boo
     }
   }
   if (names.empty()) {
-    print_diagnostics({.errors = {{options.input, 0, 0, {}, "it has no surface muscle",
-                                   "name a scene or a character that has one, such as 'hip-gluteus'"}},
-                       .warnings = {}});
+    complain(options, "it has no surface muscle", "name a scene or a character that has one, such as 'hip-gluteus'");
     whole = false;
   } else if (!options.muscle.empty() && std::ranges::find(names, options.muscle) == names.end()) {
-    print_diagnostics({.errors = {{options.input, 0, 0, {}, fmt::format("it has no surface muscle '{}'", options.muscle),
-                                   suggest_name(options.muscle, std::span<const std::string>(names), "surface muscles")}},
-                       .warnings = {}});
+    complain(options, fmt::format("it has no surface muscle '{}'", options.muscle),
+             suggest_name(options.muscle, std::span<const std::string>(names), "surface muscles"));
     whole = false;
   }
   return muscles;
@@ -119,14 +123,14 @@ bool write(const fs::path& file, const std::string& text) {
 // Several muscles' pictures go beside each other, with the muscles' names.
 fs::path picture_file(const fs::path& file, const MuscleFibres& muscle, std::size_t count) {
   if (count < 2) return file;
-  return file.parent_path() / fmt::format("{}-{}{}", file.stem().string(), muscle.surface->name, file.extension().string());
+  const std::string name = fmt::format("{}-{}", file.stem().string(), muscle.surface->name);
+  return file.parent_path() / (name + file.extension().string());
 }
 
 bool play(const Options& options, const Source& source, std::span<const MuscleFibres> muscles) {
 #ifdef FASCICLE_COOK_PLAYS
   if (source.scene == nullptr) {
-    print_diagnostics({.errors = {{options.input, 0, 0, {}, "a character alone plays nothing", "name a scene (--play)"}},
-                       .warnings = {}});
+    complain(options, "a character alone plays nothing", "name a scene (--play)");
     return false;
   }
   bool inside = true;
@@ -138,9 +142,8 @@ bool play(const Options& options, const Source& source, std::span<const MuscleFi
 #else
   (void)source;
   (void)muscles;
-  print_diagnostics({.errors = {{options.input, 0, 0, {}, "this program was built without the game's simulation",
-                                 "build with FASCICLE_BUILD_RENDER=ON, or leave --play out"}},
-                     .warnings = {}});
+  complain(options, "this program was built without the game's simulation",
+           "build with FASCICLE_BUILD_RENDER=ON, or leave --play out");
   return false;
 #endif
 }
@@ -169,7 +172,7 @@ void add_fibres(CLI::App& program, Command& chosen) {
   command->add_option("--muscle", options->muscle, "This surface muscle alone (all)");
   command->add_option("--method", options->method, "How they are made (as the content says; isocontours)")
       ->check(CLI::IsMember({"isocontours", "isocontour", "surface"}));
-  command->add_option("--template", options->arrangement, "The isocontours' arrangement (as the content says; parallel)")
+  command->add_option("--template", options->arrangement, "Isocontours in this arrangement (as the content says)")
       ->check(CLI::IsMember({"parallel", "pennate", "fan"}));
   command->add_option("--pennation", options->pennation, "Degrees between pennate fibres and the muscle's line (20)")
       ->check(CLI::Range(0.0, 85.0));

@@ -59,8 +59,8 @@ void check(const SurfaceAsset& surface, const SurfaceState& state, const FibreBu
 
 }  // namespace
 
-std::vector<FibrePlay> play_fibres(const std::shared_ptr<const SceneAsset>& scene, std::span<const MuscleFibres> muscles,
-                                   std::uint64_t every) {
+std::vector<FibrePlay> play_fibres(const std::shared_ptr<const SceneAsset>& scene,
+                                   std::span<const MuscleFibres> muscles, std::uint64_t every) {
   game::Simulation simulation(scene, {.workers = 1, .skin_meshes = false});
   ecs::World& world = simulation.world();
   std::vector<FibrePlay> plays;
@@ -110,12 +110,15 @@ std::string to_table(const FibrePlay& play) {
   const auto line = [&](std::string_view what, const std::string& value) {
     fmt::format_to(std::back_inserter(text), "  {:<26} {}\n", what, value);
   };
-  line("points outside", play.outside == 0
-                             ? fmt::format("none at {} steps checked", play.checked)
-                             : fmt::format("{} at step {}, the worst of {} checked; {:.2f} mm at most; the surface has {} pairs of "
-                                           "triangles that cross then",
-                                           play.outside, play.worst_step, play.checked, 1e3 * play.furthest, play.self_intersections));
-  line("mean length to rest", fmt::format("{:.4f} to {:.4f}, {:.4f} at the end", play.least_ratio, play.most_ratio, play.last_ratio));
+  if (play.outside == 0) {
+    line("points outside", fmt::format("none at {} steps checked", play.checked));
+  } else {
+    line("points outside", fmt::format("{} at step {}, the worst of {} checked; {:.2f} mm at most", play.outside,
+                                       play.worst_step, play.checked, 1e3 * play.furthest));
+    line("triangles that cross then", fmt::format("{} pairs", play.self_intersections));
+  }
+  line("mean length to rest",
+       fmt::format("{:.4f} to {:.4f}, {:.4f} at the end", play.least_ratio, play.most_ratio, play.last_ratio));
   line("cost (us a step)", fmt::format("{:.1f}, {:.1f} % of the step's {:.1f}", play.fibres_us,
                                        play.step_us > 0.0 ? 100.0 * play.fibres_us / play.step_us : 0.0, play.step_us));
   return text;

@@ -1,7 +1,7 @@
 #include "tools/fascicle_cook/fibres_report.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -26,7 +26,8 @@ constexpr double kView = 420.0, kMargin = 20.0, kTitle = 40.0;  // pixels
 // From magenta to green by way of blue: fibres that begin side by side look alike.
 std::string colour_of(double share) {
   const auto part = [](double x) { return static_cast<int>(std::clamp(x, 0.0, 1.0) * 200.0 + 20.0); };
-  return fmt::format("#{:02x}{:02x}{:02x}", part(1.0 - 1.6 * share), part(1.4 * share - 0.4), part(1.0 - std::abs(2.0 * share - 0.9)));
+  return fmt::format("#{:02x}{:02x}{:02x}", part(1.0 - 1.6 * share), part(1.4 * share - 0.4),
+                     part(1.0 - std::abs(2.0 * share - 0.9)));
 }
 
 }  // namespace
@@ -64,13 +65,16 @@ std::string fibres_table(const MuscleFibres& muscle) {
   const double sum = std::accumulate(bundle.rest_length.begin(), bundle.rest_length.end(), 0.0);
   line("length min/mean/max (mm)", fmt::format("{:.1f} / {:.1f} / {:.1f}", 1e3 * static_cast<double>(least),
                                                1e3 * sum / bundle.count, 1e3 * static_cast<double>(most)));
-  line("points pulled inside", fmt::format("{} of {}, by {:.2f} mm at most", bundle.pulled_in, bundle.rest_points.size(),
-                                           1e3 * static_cast<double>(bundle.most_pulled)));
+  line("points pulled inside",
+       fmt::format("{} of {}, by {:.2f} mm at most", bundle.pulled_in, bundle.rest_points.size(),
+                   1e3 * static_cast<double>(bundle.most_pulled)));
   const DirectionError error = measure_direction(bundle, muscle.surface->fibres);
-  line("direction error (degrees)",
-       error.places == 0 ? std::string("no fibres are given on the surface")
-                         : fmt::format("mean {:.2f}, largest {:.2f}, against {} surface fibres at {} places", error.mean * kDegrees,
-                                       error.max * kDegrees, muscle.surface->fibres.size(), error.places));
+  std::string angles = "no fibres are given on the surface";
+  if (error.places > 0) {
+    angles = fmt::format("mean {:.2f}, largest {:.2f}, against {} surface fibres at {} places", error.mean * kDegrees,
+                         error.max * kDegrees, muscle.surface->fibres.size(), error.places);
+  }
+  line("direction error (degrees)", angles);
   return text;
 }
 
@@ -81,9 +85,9 @@ std::string fibres_csv(std::span<const MuscleFibres> muscles) {
     for (std::size_t i = 0; i < bundle.rest_points.size(); ++i) {
       const std::size_t fibre = i / bundle.points_per_fibre;
       const glm::vec3& p = bundle.rest_points[i];
+      const double length_mm = 1e3 * static_cast<double>(bundle.rest_length[fibre]);
       fmt::format_to(std::back_inserter(csv), "{},{},{},{:.4f},{},{:.6f},{:.6f},{:.6f}\n", muscle.surface->name, fibre,
-                     bundle.head[fibre], 1e3 * static_cast<double>(bundle.rest_length[fibre]), i % bundle.points_per_fibre,
-                     p.x, p.y, p.z);
+                     bundle.head[fibre], length_mm, i % bundle.points_per_fibre, p.x, p.y, p.z);
     }
   }
   return csv;
@@ -120,7 +124,8 @@ std::string fibres_svg(const MuscleFibres& muscle) {
       const double share = size.x > 0.0 ? static_cast<double>(points[0].x - lower.x) / size.x : 0.5;
       draw(points, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.6\"", colour_of(share)));
     }
-    for (const FibreLine& given : muscle.surface->fibres) draw(given.points, "fill=\"none\" stroke=\"#000000\" stroke-width=\"2\"");
+    for (const FibreLine& given : muscle.surface->fibres)
+      draw(given.points, "fill=\"none\" stroke=\"#000000\" stroke-width=\"2\"");
   }
   return svg.finish();
 }

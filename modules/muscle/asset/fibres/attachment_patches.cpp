@@ -101,7 +101,7 @@ Result<AttachmentPatches> find_attachment_patches(const SurfaceAsset& surface) {
     const std::vector<std::uint32_t> heads = find_heads(surface, pieces, origin);
     if (heads.empty()) {
       faults.errors.push_back(fibre_fault(surface, fmt::format("no vertex is attached as its {}", end),
-                                          "fibres run from an origin to an insertion: attach vertices to a bone as each"));
+                                          "fibres run from origin to insertion: attach vertices to a bone as each"));
     } else if (heads.size() > 1) {
       faults.errors.push_back(fibre_fault(
           surface, fmt::format("its {} is {} patches apart from each other: it has several heads", end, heads.size()),

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kDirections = 40;   // over half a sphere: the best chord is found within some 15 degrees
 constexpr std::size_t kTries = 4;         // chords, the best first, until one has a free view
 constexpr double kGrazing = 0.05;         // sines of angles below count as this: such a chord is bad enough
-constexpr double kTouch = 1.0e-4;         // of the way to the vertex behind: nearer to it the surface is its own triangles
+constexpr double kTouch = 1.0e-4;         // of the way to the vertex behind: nearer to it are its own triangles
 constexpr std::size_t kChunk = 64;
 
 std::array<glm::dvec3, kDirections> spread_directions() {
@@ -42,7 +42,8 @@ glm::dvec3 unit_normal(const Corners& corner) {
   return length > 0.0 ? n / length : glm::dvec3(0.0);
 }
 
-// Factors of a triangle's corners, summing to 1, that give the place nearest to `p` in its plane; zero where it has none.
+// Factors of a triangle's corners, summing to 1, that give the place nearest to `p` in its plane; zero where it has
+// none.
 glm::dvec3 barycentric(const glm::dvec3& p, const Corners& corner) {
   const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double square = glm::dot(n, n);
@@ -99,7 +100,8 @@ class Binder {
       }
       if (before == nullptr || after == nullptr || before->exit || !after->exit) continue;
       const double length = static_cast<double>(after->t) - static_cast<double>(before->t);
-      chords.push_back({length / squareness(before->triangle, directions_[i]) / squareness(after->triangle, directions_[i]),
+      const double square = squareness(before->triangle, directions_[i]) * squareness(after->triangle, directions_[i]);
+      chords.push_back({length / square,
                         -before->t > after->t ? before->triangle : after->triangle});
     }
     return chords;

@@ -1,5 +1,5 @@
 // The fibres inside a surface muscle (4.4): made at rest by one of two methods, then bound to the surface, so that they
-// follow its deformation at the cost of a few gathers a point. Immutable, shared by all characters that have the muscle.
+// follow its deformation at the cost of a few gathers a point. Immutable, shared by all characters with the muscle.
 //
 // How a point is bound so that it stays inside: see bind_fibres.hpp. It leaves the muscle only where the surface comes
 // in across its chord from the side, or passes through itself.

@@ -71,8 +71,8 @@ Result<FibreCurves> make_isocontour_fibres(const SurfaceAsset& surface, const Fi
 
   const CylinderMap map(std::move(discs));
   const double half_width = map.half_width();
-  const double slope = half_width > 0.0 ? std::tan(static_cast<double>(settings.pennation)) * contours.length / half_width
-                                        : 0.0;
+  const double tangent = std::tan(static_cast<double>(settings.pennation));
+  const double slope = half_width > 0.0 ? tangent * contours.length / half_width : 0.0;
   FibreCurves fibres;
   fibres.points_per_fibre = settings.points;
   fibres.head.assign(settings.count, 0);
@@ -86,8 +86,9 @@ Result<FibreCurves> make_isocontour_fibres(const SurfaceAsset& surface, const Fi
   }
   Diagnostics notes;
   if (contours.split_levels > 0)
-    notes.warnings.push_back(fibre_fault(surface, std::to_string(contours.split_levels) + " of the rings fall into several",
-                                         "only the longest of each carries fibres: what lies in others gets none"));
+    notes.warnings.push_back(
+        fibre_fault(surface, std::to_string(contours.split_levels) + " of the rings fall into several",
+                    "only the longest of each carries fibres: what lies in others gets none"));
   return Result<FibreCurves>(std::move(fibres), std::move(notes));
 }
 

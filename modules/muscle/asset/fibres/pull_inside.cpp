@@ -50,7 +50,8 @@ PulledPoints pull_inside(const TriangleMesh& mesh, double margin, std::span<glm:
     const glm::dvec3 place(nearest.position);
     result.outside = !winding.inside(p);
     if (!result.outside && static_cast<double>(nearest.distance) >= margin) return;
-    const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[3 * nearest.triangle + k]]); };
+    const std::uint32_t* corners = &mesh.indices[3 * nearest.triangle];
+    const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[corners[k]]); };
     const glm::dvec3 way = result.outside ? place - p : p - place;
     const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
     // Straight on, or where a fold is in the way against the nearest triangle's normal, from its middle if need be.

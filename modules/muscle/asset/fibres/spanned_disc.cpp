@@ -17,7 +17,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double kEdgeShare = 0.02;    // of the edges' squares in the triangulation's cost: short chords where areas tie
+constexpr double kEdgeShare = 0.02;    // of the edges' squares in the triangulation's cost: short chords if areas tie
 constexpr int kRefinements = 2;        // every one makes four triangles of each
 constexpr int kMostPasses = 40;        // of turning edges; a few do
 constexpr double kTurnFrom = 1.0e-6;   // a sum of cotangents below minus this is an edge to turn

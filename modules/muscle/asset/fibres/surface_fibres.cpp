@@ -80,8 +80,10 @@ void turn_inward(const TriangleMesh& mesh, const ClosestPoints& surface, Slab& s
 // The part of the muscle on each line whose entry is nearest to the sheet. Returns the share of lines that found one.
 double look_under(const RayScene& scene, Slab& slab) {
   std::vector<Line> lines;
-  for (const Under& under : slab.under)
-    lines.push_back({glm::vec3(under.place), under.inward == glm::dvec3(0.0) ? glm::vec3(0, 1, 0) : glm::vec3(under.inward)});
+  for (const Under& under : slab.under) {
+    const bool none = under.inward == glm::dvec3(0.0);
+    lines.push_back({glm::vec3(under.place), none ? glm::vec3(0, 1, 0) : glm::vec3(under.inward)});
+  }
   std::vector<std::uint32_t> starts;
   std::vector<LineCrossing> crossings;
   scene.cast_all(lines, starts, crossings);
@@ -102,7 +104,7 @@ double look_under(const RayScene& scene, Slab& slab) {
   return static_cast<double>(found) / static_cast<double>(lines.size());
 }
 
-// Places without an answer take the mean of their neighbours', again and again until all have one; then all are smoothed.
+// Places without an answer take the mean of their neighbours' until all have one; then all are smoothed.
 void settle_depths(Slab& slab) {
   const auto mean_about = [&](std::size_t c, std::size_t r, double& entry, double& exit) {
     double weight = 0.0;
@@ -268,8 +270,9 @@ Result<FibreCurves> make_surface_fibres(const SurfaceAsset& surface, const Fibre
     lay_out(slab);
     turn_inward(mesh, nearest, slab);
     if (look_under(scene, slab) < kLeastUnder) {
-      faults.errors.push_back(fibre_fault(surface, fmt::format("the muscle does not lie under the fibres of head {}", head),
-                                          "give fibres that lie on its surface side by side"));
+      faults.errors.push_back(
+          fibre_fault(surface, fmt::format("the muscle does not lie under the fibres of head {}", head),
+                      "give fibres that lie on its surface side by side"));
       continue;
     }
     settle_depths(slab);

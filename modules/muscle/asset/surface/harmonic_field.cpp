@@ -41,7 +41,7 @@ double cotangent(const glm::dvec3& tip, const glm::dvec3& a, const glm::dvec3& b
 
 // Every edge once, with half the sum of the opposite angles' cotangents, but never less than the least share.
 std::vector<Edge> weigh_edges(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
-  std::vector<std::uint32_t> corners;  // of triangles whose corners differ: others join nothing that their edge does not
+  std::vector<std::uint32_t> corners;  // of triangles with three corners: others join nothing that their edge does not
   corners.reserve(triangles.size());
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];

@@ -59,7 +59,8 @@ TEST(FibreCurves, CatmullRomPassesThroughItsPointsWithoutLoops) {
 
 TEST(FibreCurves, CatmullRomOfEvenPointsOnALineIsTheLine) {
   const CentripetalCurve curve(Curve{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}});
-  for (const double t : {0.0, 0.1, 0.5, 0.77, 1.0}) EXPECT_NEAR(glm::distance(curve.at(t), {2 * t, 2 * t, 0}), 0.0, 1e-12);
+  for (const double t : {0.0, 0.1, 0.5, 0.77, 1.0})
+    EXPECT_NEAR(glm::distance(curve.at(t), {2 * t, 2 * t, 0}), 0.0, 1e-12);
 }
 
 TEST(FibreSheet, PutsFibresSideBySideAndRunsThemOneWay) {

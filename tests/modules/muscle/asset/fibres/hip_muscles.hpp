@@ -51,7 +51,9 @@ inline std::shared_ptr<const muscle::SurfaceAsset> build_hip_muscle(const std::s
   return asset ? *asset : nullptr;
 }
 
-inline std::shared_ptr<const muscle::SurfaceAsset> build_gluteus() { return build_hip_muscle("gluteus_maximus", -343.7f); }
+inline std::shared_ptr<const muscle::SurfaceAsset> build_gluteus() {
+  return build_hip_muscle("gluteus_maximus", -343.7f);
+}
 inline std::shared_ptr<const muscle::SurfaceAsset> build_iliacus() { return build_hip_muscle("iliacus", -313.8f); }
 
 }  // namespace fascicle::test

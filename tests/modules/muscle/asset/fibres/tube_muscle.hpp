@@ -1,5 +1,5 @@
-// A muscle with known fibres: a closed round tube along z from 0, its lower cap attached as the origin, its upper cap as
-// the insertion.
+// A muscle with known fibres: a closed round tube along z from 0, its lower cap attached as the origin, its upper cap
+// as the insertion.
 #pragma once
 
 #include <cmath>

@@ -70,7 +70,8 @@ TEST(HarmonicField, IsLinearAlongATubeWhoseTrianglesHaveNoObtuseAngle) {
   std::vector<float> values(2 * tube.positions.size(), 0.5f);
   std::fill_n(values.begin(), 24, 0.0f);
   std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(tube.positions.size()) - 24, 24, 1.0f);
-  for (std::size_t v = 0; v < tube.positions.size(); ++v) values[tube.positions.size() + v] = 7.0f - tube.positions[v].z;
+  for (std::size_t v = 0; v < tube.positions.size(); ++v)
+    values[tube.positions.size() + v] = 7.0f - tube.positions[v].z;
   const Result<std::vector<float>> field =
       solve_harmonic(tube.positions, tube.indices, fix_ends(tube, 24), values);
   ASSERT_TRUE(field.ok()) << to_text(field.diagnostics());
@@ -85,7 +86,8 @@ TEST(HarmonicField, HasNoExtremaOnBadTriangles) {
   // A wall shaken until many of its angles are obtuse and some triangles are needles or have no area.
   TriangleMesh tube = test::make_wall(make_circle(1.0f, 12), 0.0f, 1.0f, 12);
   std::mt19937 random(7);
-  for (glm::vec3& p : tube.positions) p += 0.2f * glm::vec3(random() % 1000, random() % 1000, random() % 1000) / 1000.0f;
+  for (glm::vec3& p : tube.positions)
+    p += 0.2f * glm::vec3(random() % 1000, random() % 1000, random() % 1000) / 1000.0f;
   tube.positions[30] = tube.positions[31];
   tube.positions[60] = 0.5f * (tube.positions[59] + tube.positions[61]);
   std::vector<std::uint8_t> fixed = fix_ends(tube, 12);
