@@ -121,8 +121,8 @@ void OverlayFeed::list_items(const Simulation& simulation, std::size_t shown) {
   if (shown >= simulation.characters().size()) return;
   const SpawnedCharacter& character = simulation.characters()[shown];
   const std::string owner = cost_owner(character, shown);
+  list_surfaces(simulation, character, owner);  // first: they are few
   if (character.musculature != ecs::kNoEntity) list_units(simulation, character, owner);
-  list_surfaces(simulation, character, owner);
   for (OverlayItem& item : items_) {
     const ItemState& state = item_state(std::string(item.name));
     item.visible = state.visible;

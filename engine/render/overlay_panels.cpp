@@ -285,7 +285,8 @@ OverlayActions lay_out_overlay(const OverlayModel& model, float width, float hei
 
   if (!model.items.empty()) {
     const float values_width = kValueWidth * static_cast<float>(count_values(model));
-    const float item_width = std::max(kNameWidth + values_width + 30.0f, 460.0f);
+    const float gaps = 2.0f * ImGui::GetStyle().CellPadding.x * static_cast<float>(count_values(model));
+    const float item_width = std::max(kNameWidth + values_width + gaps + 30.0f, 460.0f);
     ImGui::SetNextWindowPos(ImVec2(width - item_width - kMargin, kMargin), ImGuiCond_Always);
     // The filter, the headings and a line an item, and a line to spare for the window's and the table's borders.
     const float lines = static_cast<float>(model.items.size()) + 2.0f;
