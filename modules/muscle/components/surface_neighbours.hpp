@@ -22,7 +22,7 @@ struct NeighbourPair {
 struct SurfaceNeighbours {
   std::vector<ecs::Entity> muscles;
   std::vector<NeighbourPair> pairs;
-  std::vector<std::uint8_t> solved;  // scratch: by muscle, whether it is solved in this step
+  std::vector<std::uint8_t> solved;  // scratch, by muscle: 0 not solved in this step, 1 touches no other, 2 may touch one
 };
 
 }  // namespace fascicle::muscle

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -148,12 +149,14 @@ struct Solve {
     finish(muscle, state, contacts);
   }
 
-  // Calls f(index, muscle, step, state, contacts) for the muscles that are solved, side by side.
+  // Calls f(muscle, step, state) for the muscles that are solved, side by side; `touching`: only where one may touch
+  // another, or only where not.
   template <class F>
-  void each_solved(SurfaceNeighbours& neighbours, std::uint32_t substeps, F&& f) const {
+  void each_solved(SurfaceNeighbours& neighbours, std::uint32_t substeps, std::optional<bool> touching, F&& f) const {
     parallel::for_range(neighbours.muscles.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (neighbours.solved[i] == 0) continue;
+        if (touching.has_value() && *touching != (neighbours.solved[i] == 2)) continue;
         const ScopedCost timer(costs.row(neighbours.muscles[i]), ScopedCost::kWhole);
         const SurfaceMuscle& muscle = muscles.get<SurfaceMuscle>(neighbours.muscles[i]);
         SurfaceState& state = muscles.get<SurfaceState>(neighbours.muscles[i]);
@@ -189,23 +192,33 @@ struct Solve {
       neighbours.solved[i] = 1;
       substeps = std::max(substeps, muscle.settings.substeps);
     }
-    each_solved(neighbours, substeps, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+    each_solved(neighbours, substeps, {}, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
       begin_step(step, state.scratch);
     });
     each_pair(neighbours, find_touching);
+    for (const NeighbourPair& pair : neighbours.pairs) {
+      if (neighbours.solved[pair.first] == 0 || neighbours.solved[pair.second] == 0 || pair.pairs.pairs.empty()) continue;
+      neighbours.solved[pair.first] = neighbours.solved[pair.second] = 2;
+    }
+    each_solved(neighbours, substeps, false, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+      for (std::uint32_t i = 0; i < step.settings.substeps; ++i) {
+        move_and_constrain(step, i, state.scratch);
+        finish_substep(step, i, state.scratch);
+      }
+    });
     for (std::uint32_t i = 0; i < substeps; ++i) {
-      each_solved(neighbours, substeps, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+      each_solved(neighbours, substeps, true, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
         move_and_constrain(step, i, state.scratch);
       });
       const double fraction = static_cast<double>(i + 1) / substeps;
       each_pair(neighbours, [fraction](const TouchingMuscle& first, const TouchingMuscle& second, NeighbourPair& pair) {
         push_apart(first, second, fraction, pair);
       });
-      each_solved(neighbours, substeps, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+      each_solved(neighbours, substeps, true, [i](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
         finish_substep(step, i, state.scratch);
       });
     }
-    each_solved(neighbours, substeps, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
+    each_solved(neighbours, substeps, {}, [](const SurfaceMuscle&, const SurfaceStep& step, SurfaceState& state) {
       state.volume = end_step(step, state.scratch);
     });
     for (std::size_t i = 0; i < neighbours.muscles.size(); ++i) {

@@ -56,6 +56,8 @@ void find_touching(const TouchingMuscle& first, const TouchingMuscle& second, Ne
 }
 
 void push_apart(const TouchingMuscle& first, const TouchingMuscle& second, double fraction, NeighbourPair& pair) {
+  pair.pairs.pushed = 0;
+  if (pair.pairs.pairs.empty()) return;
   project_pairs(job_of(first, second, fraction, pair), pair.pairs);
 }
 
