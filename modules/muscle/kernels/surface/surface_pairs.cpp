@@ -229,9 +229,16 @@ class Search {
     for (std::uint32_t i = 0; count > 0 && i < against.count; ++i) {
       const std::uint32_t t = triangle_surface.tree->triangles[against.first + i];
       const std::uint32_t* corners = triangles.corners(t);
+      const glm::vec3 a = triangles.at(corners[0]), b = triangles.at(corners[1]), c = triangles.at(corners[2]);
+      WideRange bounds_of_triangle = point_range(a);
+      include(bounds_of_triangle, point_range(b));
+      include(bounds_of_triangle, point_range(c));
       TrianglePlane plane;
-      if (!plane.set(triangles.at(corners[0]), triangles.at(corners[1]), triangles.at(corners[2]))) continue;
+      bool placed = false;
       for (std::size_t k = 0; k < count; ++k) {
+        if (!near(point_range(places[k]), bounds_of_triangle, reach_)) continue;
+        if (!placed && !plane.set(a, b, c)) break;
+        placed = true;
         test(numbers[k], places[k], t, plane, clearance_of(vertex_surface, numbers[k]), vertices, triangles, of_second);
       }
     }
