@@ -15,7 +15,9 @@ namespace {
 // Pairs there is room for between muscles that are not near at rest: a character may have dozens.
 constexpr std::size_t kRoomApart = 4096;
 
-bool collides(const SurfaceMuscle& muscle) { return muscle.settings.collide_with_muscles && muscle.asset->tree != nullptr; }
+bool collides(const SurfaceMuscle& muscle) {
+  return muscle.settings.collide_with_muscles && muscle.asset->tree != nullptr;
+}
 
 void make_room(const SurfaceMuscle& muscle, SurfaceState& state) {
   SurfaceBoxes& boxes = state.scratch.boxes;
@@ -57,7 +59,8 @@ void leave_neighbours(ecs::World& world, ecs::Entity entity) {
   const auto place = std::find(neighbours->muscles.begin(), neighbours->muscles.end(), entity);
   if (place == neighbours->muscles.end()) return;
   const auto gone = static_cast<std::uint32_t>(place - neighbours->muscles.begin());
-  std::erase_if(neighbours->pairs, [gone](const NeighbourPair& pair) { return pair.first == gone || pair.second == gone; });
+  std::erase_if(neighbours->pairs,
+                [gone](const NeighbourPair& pair) { return pair.first == gone || pair.second == gone; });
   for (NeighbourPair& pair : neighbours->pairs) {
     pair.first -= pair.first > gone;
     pair.second -= pair.second > gone;

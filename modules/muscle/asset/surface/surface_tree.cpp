@@ -38,7 +38,8 @@ class Builder {
         const std::uint32_t v = asset.triangles[3 * t + k];
         SurfaceRange& range = tree_.rest_normals[v];
         for (int axis = 0; axis < 3; ++axis) {
-          float &lower = range.lower[static_cast<std::size_t>(axis)], &upper = range.upper[static_cast<std::size_t>(axis)];
+          float& lower = range.lower[static_cast<std::size_t>(axis)];
+          float& upper = range.upper[static_cast<std::size_t>(axis)];
           lower = seen[v] != 0 ? std::min(lower, normal[axis]) : normal[axis];
           upper = seen[v] != 0 ? std::max(upper, normal[axis]) : normal[axis];
         }

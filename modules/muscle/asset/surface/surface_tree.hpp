@@ -2,8 +2,8 @@
 // the leaves of a tree of boxes, and how it lay at rest. Immutable, shared by all characters that have the muscle.
 //
 // The mesh keeps its neighbours however it bends, so the tree stays good and only its boxes are taken anew each step
-// (kernels/surface/surface_boxes.hpp): no grid to fill, no cell size to choose. Leaves are cut by place *and* normal, so
-// the two sides of a thin muscle lie in different leaves, and whole branches that nowhere face each other can be passed
+// (kernels/surface/surface_boxes.hpp): no grid to fill, no cell size to choose. Leaves are cut by place *and* normal,
+// so the two sides of a thin muscle lie in different leaves, and whole branches that nowhere face each other can be passed
 // over.
 #pragma once
 

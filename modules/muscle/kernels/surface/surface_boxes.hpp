@@ -1,6 +1,6 @@
 // Where a surface muscle is at the start of a step, for the search for contacts: a box about each node of its tree and,
-// for contacts with itself, between which bounds the normals in it lie. Two nodes whose bounds leave no two normals that
-// point against each other can't touch, and neither can anything below them: along a surface that is not folded nearly
+// for contacts with itself, between which bounds the normals in it lie. Two nodes whose bounds leave no two normals
+// that point against each other can't touch, and neither can anything below them: along a surface that is not folded nearly
 // all is passed over high up in the tree.
 #pragma once
 
@@ -21,7 +21,7 @@ struct SurfaceBoxes {
   AlignedVector<SurfaceRange> boxes;           // m, by node
   AlignedVector<SurfaceRange> normal_ranges;   // by node; empty where the muscle does not collide with itself
   AlignedVector<SurfaceNormal> triangle_normals;
-  // The same in the order of the tree's triangles, and how high above the origin their planes are (m): four side by side.
+  // The same in the order of the tree's triangles, and how high their planes are (m): four side by side.
   AlignedVector<float> plane_x, plane_y, plane_z, plane_height;
   AlignedVector<SurfacePoint> own_points;      // by place in the tree's vertices; of leaves' own alone
   AlignedVector<SurfaceRange> vertex_normals;  // by vertex: of its triangles, so a sharp corner faces many ways

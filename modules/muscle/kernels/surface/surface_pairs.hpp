@@ -63,8 +63,8 @@ struct PairedSurface {
   const SurfaceTree* tree = nullptr;
   const SurfaceBoxes* boxes = nullptr;   // as place_boxes left them at the step's start; project_pairs does not read it
   std::span<SurfacePoint> points;        // m, in the muscle's own frame; find_pairs only reads them
-  std::span<const float> clearance;      // m, from the other muscle at rest, by vertex (find_rest_clearance with a reach
-                                         // of contact_distance or more); empty: of a muscle with itself
+  std::span<const float> clearance;      // m, from the other muscle at rest, by vertex (find_rest_clearance with a
+                                         // reach of contact_distance or more); empty: far from it, or the same
 };
 
 struct PairsJob {
@@ -81,7 +81,8 @@ void find_pairs(const PairsJob& job, SurfacePairs& pairs);
 // The same only when it is time. `nearer` (m): how much nearer a vertex and a triangle may come during this step; the
 // margin is chosen here, so that pairs serve for some steps where things are slow, and for good where all is at rest.
 // What comes nearer in a step than the margin ever is (half as much again as the contact distance) may be missed.
-// Boxes are placed when they are needed and have not been in this step; `first_boxes` and `second_boxes` (null: with itself) are the job's own.
+// Boxes are placed when they are needed and have not been in this step; `first_boxes` and `second_boxes` (null: with
+// itself) are the job's own.
 void keep_pairs(const PairsJob& job, float nearer, SurfaceBoxes& first_boxes, SurfaceBoxes* second_boxes,
                 SurfacePairs& pairs);
 

@@ -14,8 +14,8 @@ struct TouchingMuscle {
 // After begin_step of both: finds what may touch in this step.
 void find_touching(const TouchingMuscle& first, const TouchingMuscle& second, NeighbourPair& pair);
 
-// In each substep, which ends at this part of the step: muscles' frames go with bones of their own, and so far they have
-// moved.
+// In each substep, which ends at this part of the step: so far have the muscles' frames moved, each with a bone of its
+// own.
 void push_apart(const TouchingMuscle& first, const TouchingMuscle& second, double fraction, NeighbourPair& pair);
 
 }  // namespace fascicle::muscle
