@@ -1,5 +1,13 @@
-# Writes the first ```cpp block of README to OUTPUT, so that a test compiles and runs what readers copy.
+# Writes the first ```cpp block of README, or the first after AFTER (a heading), to OUTPUT, so that a test compiles and
+# runs what readers copy.
 file(READ ${README} text)
+if(DEFINED AFTER)
+  string(FIND "${text}" "${AFTER}" start)
+  if(start EQUAL -1)
+    message(FATAL_ERROR "${README} has no '${AFTER}'")
+  endif()
+  string(SUBSTRING "${text}" ${start} -1 text)
+endif()
 string(FIND "${text}" "```cpp\n" start)
 if(start EQUAL -1)
   message(FATAL_ERROR "${README} has no cpp example")
