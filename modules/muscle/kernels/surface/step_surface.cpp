@@ -67,21 +67,6 @@ void place_bones(const SurfaceStep& step, SurfaceScratch& scratch, double begin,
   }
 }
 
-// How far a vertex and a bone may come together within the step: by what the fastest vertex does, and by how far the
-// bone's box moves.
-float reach_of(const SurfaceStep& step, const SurfaceBone& bone, const RigidMotion& motion, float fastest) {
-  float carried = 0.0f;
-  const glm::mat4 moved = motion.to * glm::inverse(motion.from);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 local(corner & 1 ? bone.field->upper().x : bone.field->lower().x,
-                          corner & 2 ? bone.field->upper().y : bone.field->lower().y,
-                          corner & 4 ? bone.field->upper().z : bone.field->lower().z);
-    const glm::vec3 at(bone.from_bone * glm::vec4(local, 1.0f));
-    carried = std::max(carried, glm::distance(at, glm::vec3(moved * glm::vec4(at, 1.0f))));
-  }
-  return step.settings.contact_distance + kLeastReach + kReachPerSpeed * fastest * step.step + carried;
-}
-
 float speed_of_fastest(const SurfaceStep& step) {
   float fastest = 0.0f;
   for (const SurfacePoint& v : step.velocity) fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
@@ -103,6 +88,19 @@ Ball ball_about(std::span<const SurfacePoint> vertices) {
   return {0.5f * (lower + upper), 0.5f * glm::distance(lower, upper)};
 }
 
+// How far a vertex and a bone may come together within the step: by what the fastest vertex does, and by how far the bone
+// moves where the muscle is.
+float reach_of(const SurfaceStep& step, const RigidMotion& motion, const Ball& ball, float fastest) {
+  float carried = 0.0f;
+  const glm::mat4 moved = motion.to * glm::inverse(motion.from);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 side(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f);
+    const glm::vec3 at = ball.centre + ball.radius * side;
+    carried = std::max(carried, glm::distance(at, glm::vec3(moved * glm::vec4(at, 1.0f))));
+  }
+  return step.settings.contact_distance + kLeastReach + kReachPerSpeed * fastest * step.step + carried;
+}
+
 bool is_far(const SurfaceBone& bone, const Ball& ball, float reach) {
   const glm::vec3 centre(bone.to_bone * glm::vec4(ball.centre, 1.0f));
   const glm::vec3 nearest = glm::clamp(centre, bone.field->lower(), bone.field->upper());
@@ -118,7 +116,7 @@ void find_near(const SurfaceStep& step, float fastest, SurfaceScratch& scratch) 
     const std::size_t first = scratch.first_near[b];
     std::size_t count = 0;
     if (step.fields[b] != nullptr && step.settings.collide_with_bones) {
-      const float reach = reach_of(step, scratch.bones[b], step.bones[b], fastest);
+      const float reach = reach_of(step, step.bones[b], ball, fastest);
       if (!is_far(scratch.bones[b], ball, reach)) {
         count = find_near_bone(scratch.bones[b], vertices, reach, std::span(scratch.near).subspan(first));
       }
