@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <glm/vector_relational.hpp>
 
 namespace fascicle::muscle {
 namespace {
@@ -30,15 +29,28 @@ glm::vec3 way_in(const BoneField& field, const glm::vec3& outside, const glm::ve
 
 }  // namespace
 
-std::size_t find_near_bone(const SurfaceBone& bone, std::span<const SurfacePoint> points, float reach,
-                           std::span<std::uint32_t> near) {
-  const glm::vec3 lower = bone.field->lower() - reach, upper = bone.field->upper() + reach;
+VertexBall ball_about(std::span<const SurfacePoint> points) {
+  glm::vec3 lower = place(points[0]), upper = lower;
+  for (const SurfacePoint& p : points) {
+    lower = glm::min(lower, place(p));
+    upper = glm::max(upper, place(p));
+  }
+  return {0.5f * (lower + upper), 0.5f * glm::distance(lower, upper)};
+}
+
+std::size_t find_near_bone(const SurfaceBone& bone, std::span<const VertexBall> balls,
+                           std::span<const SurfacePoint> points, float reach, std::span<std::uint32_t> near) {
   std::size_t count = 0;
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
-    if (!(points[v].inverse_mass > 0.0f)) continue;
-    const glm::vec3 q = apply(bone.to_bone, place(points[v]));
-    if (glm::any(glm::lessThan(q, lower)) || glm::any(glm::greaterThan(q, upper))) continue;
-    if (bone.field->distance(q) < reach) near[count++] = v;
+  for (std::size_t ball = 0; ball < balls.size(); ++ball) {
+    // Distances change by no more than one goes.
+    if (bone.field->distance(apply(bone.to_bone, balls[ball].centre)) >= reach + balls[ball].radius) continue;
+    const std::size_t first = ball * kBallVertices, end = std::min(points.size(), first + kBallVertices);
+    for (std::size_t v = first; v < end; ++v) {
+      if (!(points[v].inverse_mass > 0.0f)) continue;
+      if (bone.field->distance(apply(bone.to_bone, place(points[v]))) < reach) {
+        near[count++] = static_cast<std::uint32_t>(v);
+      }
+    }
   }
   return count;
 }

@@ -30,10 +30,18 @@ struct BoneTouch {
   std::uint32_t deepest = 0;   // that vertex
 };
 
+// A ball about vertices that follow each other, and so are near each other: the asset sorts them by place.
+struct VertexBall {
+  glm::vec3 centre{0.0f};
+  float radius = 0.0f;  // m
+};
+inline constexpr std::size_t kBallVertices = 32;
+VertexBall ball_about(std::span<const SurfacePoint> points);
+
 // Vertices that may touch a bone during the coming step: those that can move and are nearer than `reach` (m) to its
-// surface. `near` has room for all vertices. Returns how many.
-std::size_t find_near_bone(const SurfaceBone& bone, std::span<const SurfacePoint> points, float reach,
-                           std::span<std::uint32_t> near);
+// surface. `balls`: one for each kBallVertices of the points. `near` has room for all vertices. Returns how many.
+std::size_t find_near_bone(const SurfaceBone& bone, std::span<const VertexBall> balls,
+                           std::span<const SurfacePoint> points, float reach, std::span<std::uint32_t> near);
 
 // Moves those that are nearer than `distance` (m) out. `before`: their places at the substep's start. `friction` is
 // Coulomb's coefficient.

@@ -73,24 +73,9 @@ float speed_of_fastest(const SurfaceStep& step) {
   return std::sqrt(fastest);
 }
 
-// A ball about all vertices: most bones of a character are nowhere near it.
-struct Ball {
-  glm::vec3 centre{0.0f};
-  float radius = 0.0f;  // m
-};
-
-Ball ball_about(std::span<const SurfacePoint> vertices) {
-  glm::vec3 lower = place(vertices[0]), upper = lower;
-  for (const SurfacePoint& p : vertices) {
-    lower = glm::min(lower, place(p));
-    upper = glm::max(upper, place(p));
-  }
-  return {0.5f * (lower + upper), 0.5f * glm::distance(lower, upper)};
-}
-
 // How far a vertex and a bone may come together within the step: by what the fastest vertex does, and by how far the bone
 // moves where the muscle is.
-float reach_of(const SurfaceStep& step, const RigidMotion& motion, const Ball& ball, float fastest) {
+float reach_of(const SurfaceStep& step, const RigidMotion& motion, const VertexBall& ball, float fastest) {
   float carried = 0.0f;
   const glm::mat4 moved = motion.to * glm::inverse(motion.from);
   for (int corner = 0; corner < 8; ++corner) {
@@ -101,7 +86,7 @@ float reach_of(const SurfaceStep& step, const RigidMotion& motion, const Ball& b
   return step.settings.contact_distance + kLeastReach + kReachPerSpeed * fastest * step.step + carried;
 }
 
-bool is_far(const SurfaceBone& bone, const Ball& ball, float reach) {
+bool is_far(const SurfaceBone& bone, const VertexBall& ball, float reach) {
   const glm::vec3 centre(bone.to_bone * glm::vec4(ball.centre, 1.0f));
   const glm::vec3 nearest = glm::clamp(centre, bone.field->lower(), bone.field->upper());
   return glm::distance(centre, nearest) > ball.radius + reach;
@@ -109,7 +94,11 @@ bool is_far(const SurfaceBone& bone, const Ball& ball, float reach) {
 
 void find_near(const SurfaceStep& step, float fastest, SurfaceScratch& scratch) {
   const std::span<const SurfacePoint> vertices = step.points.first(step.asset->vertex_count);
-  const Ball ball = ball_about(vertices);
+  for (std::size_t i = 0; i < scratch.balls.size(); ++i) {
+    const std::size_t first = i * kBallVertices;
+    scratch.balls[i] = ball_about(vertices.subspan(first, std::min(kBallVertices, vertices.size() - first)));
+  }
+  const VertexBall ball = ball_about(vertices);  // most bones of a character are nowhere near it
   place_bones(step, scratch, 0.0, 0.0);
   for (std::size_t b = 0; b < step.bones.size(); ++b) {
     scratch.touches[b] = {};
@@ -118,7 +107,8 @@ void find_near(const SurfaceStep& step, float fastest, SurfaceScratch& scratch) 
     if (step.fields[b] != nullptr && step.settings.collide_with_bones) {
       const float reach = reach_of(step, step.bones[b], ball, fastest);
       if (!is_far(scratch.bones[b], ball, reach)) {
-        count = find_near_bone(scratch.bones[b], vertices, reach, std::span(scratch.near).subspan(first));
+        count = find_near_bone(scratch.bones[b], scratch.balls, vertices, reach,
+                               std::span(scratch.near).subspan(first));
       }
     }
     scratch.first_near[b + 1] = first + count;
@@ -203,6 +193,7 @@ void lay_out(const SurfaceAsset& asset, SurfaceScratch& scratch) {
   scratch.anchors.assign(asset.vertex_count, SurfacePoint{});
   scratch.near.assign(asset.vertex_count * asset.bones.size(), 0);
   scratch.first_near.assign(asset.bones.size() + 1, 0);
+  scratch.balls.assign((asset.vertex_count + kBallVertices - 1) / kBallVertices, VertexBall{});
   scratch.attached.assign(asset.attachments.size(), glm::mat4(1.0f));
   scratch.moved.assign(12 * asset.carriers.size(), 0.0f);
   scratch.touches.assign(asset.bones.size(), BoneTouch{});

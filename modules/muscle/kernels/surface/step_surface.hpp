@@ -40,6 +40,7 @@ struct SurfaceScratch {
   AlignedVector<SurfacePoint> anchors;           // by vertex: where the carriers bring the rest shape
   std::vector<std::uint32_t> near;               // bone after bone
   std::vector<std::size_t> first_near;           // by bone it collides with, and one more
+  std::vector<VertexBall> balls;                 // about each kBallVertices vertices, at the step's start
   std::vector<glm::mat4> attached;               // by attachment: rest space -> simulation's frame, in a substep
   std::vector<float> moved;                      // 12 a carrier, see PredictJob
   std::vector<BoneTouch> touches;                // by bone it collides with
