@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/animation/skeleton.hpp"
 #include "modules/muscle/asset/fibres/fibre_bundle.hpp"
@@ -130,10 +131,9 @@ void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& 
   report.record("surface.bone_depth_max_mm", 1e3 * depth);
   report.record("surface.rest_distance_max_mm", 1e3 * rest);
   report.record("surface.attachment_error_max_mm", 1e3 * attachment);
-  if (any_fibres) {
-    report.record("surface.fibre_length_ratio_mean", fibres);
-    report.record("surface.fibre_points_outside", outside);
-  }
+  // Null where no muscle has fibres.
+  report.record("surface.fibre_length_ratio_mean", any_fibres ? fibres : std::numeric_limits<double>::quiet_NaN());
+  if (any_fibres) report.record("surface.fibre_points_outside", outside);
   report.record("surface.turned_edges", turned);
   report.record("surface.fallbacks", fallbacks);
 }

@@ -67,8 +67,8 @@ class SurfaceMeters {
 // worst by it: the ratios furthest from 1, else the largest.
 //   surface.volume_ratio, edge_ratio_mean, edge_ratio_max, edge_ratio_abs_mean (mean |ratio - 1|),
 //   dihedral_change_mean_rad, bone_depth_max_mm (triangles at attached vertices and their neighbours left out),
-//   rest_distance_max_mm, attachment_error_max_mm, fibre_length_ratio_mean and fibre_points_outside (where
-//   there are fibres), turned_edges (triangles that have swung through their neighbours) and fallbacks.
+//   rest_distance_max_mm, attachment_error_max_mm, fibre_length_ratio_mean (null without fibres), fibre_points_outside
+//   (where there are fibres), turned_edges (triangles that have swung through their neighbours) and fallbacks.
 void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& report);
 
 }  // namespace fascicle::game
