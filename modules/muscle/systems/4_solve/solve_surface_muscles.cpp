@@ -107,10 +107,12 @@ struct Solve {
   SystemCosts costs;
 
   SurfaceStep step_of(const SurfaceMuscle& muscle, SurfaceState& state) const {
-    return {.asset = muscle.asset.get(), .kernels = &kernels, .settings = muscle.settings, .step = time,
-            .attachments = state.attachment_motion, .carriers = state.carrier_motion, .bones = state.bone_motion,
-            .fields = state.fields, .rest_to_bone = state.rest_to_bone, .points = state.points,
-            .velocity = state.velocity};
+    SurfaceStep step{.asset = muscle.asset.get(), .kernels = &kernels, .settings = muscle.settings, .step = time,
+                     .attachments = state.attachment_motion, .carriers = state.carrier_motion,
+                     .bones = state.bone_motion, .fields = state.fields, .rest_to_bone = state.rest_to_bone,
+                     .points = state.points, .velocity = state.velocity};
+    step.settings.substeps = std::max(step.settings.substeps, 1u);  // a game may have set anything
+    return step;
   }
 
   // Where everything has moved that the muscle depends on; whether it is then to be solved.

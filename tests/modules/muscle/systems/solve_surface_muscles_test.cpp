@@ -254,6 +254,23 @@ TEST(SolveSurfaceMuscles, WhatDivergesFallsBackAndIsCounted) {
   EXPECT_EQ(w.state().fallbacks, 1u);
 }
 
+TEST(SolveSurfaceMuscles, SettingsMayChangeAtAnyTime) {
+  SurfaceWorld w(still_bones(2));
+  w.add(attached_ball());
+  w.steps(2);
+  SurfaceSettings& settings = w.world.get<SurfaceMuscle>(w.muscles[0]).settings;
+  settings.substeps = 0;
+  w.bones[1] = at({0.0f, 0.0f, 0.005f});
+  w.steps(10);
+  EXPECT_EQ(w.state().fallbacks, 0u);
+  EXPECT_NEAR(w.volume_ratio(), 1.0, 0.005);
+  settings.substeps = 9;
+  settings.collide_with_itself = true;
+  settings.anchor_compliance = 0.0f;
+  w.steps(10);
+  EXPECT_EQ(w.state().fallbacks, 0u);
+}
+
 TEST(SolveSurfaceMuscles, ATeleportIsNoMovement) {
   SurfaceWorld w(still_bones(2));
   w.add(attached_ball());
