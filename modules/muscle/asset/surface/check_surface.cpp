@@ -1,20 +1,18 @@
 #include "modules/muscle/asset/surface/check_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
+#include "engine/geometry/finite.hpp"
 #include "engine/geometry/mesh_edges.hpp"
 #include "engine/geometry/mesh_measures.hpp"
+#include "engine/geometry/mesh_pieces.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 
 namespace fascicle::muscle {
 namespace {
-
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 class Checker {
  public:
@@ -83,37 +81,13 @@ class Checker {
             "turn the triangles on one side of them round");
     }
     if (open + crowded + turned > 0) return;
-    const std::size_t pieces = count_pieces(edges);
+    const std::size_t pieces = find_pieces(mesh.indices, mesh.positions.size()).count;
     if (pieces > 1) {
       fault("mesh", fmt::format("the mesh is {} separate pieces", pieces), "make each a muscle of its own");
     } else if (!(mesh_volume(mesh) > 0.0)) {
       fault("mesh", "the mesh is inside out, or has no volume",
             "turn its triangles round: anticlockwise as seen from outside");
     }
-  }
-
-  std::size_t count_pieces(const MeshEdges& edges) const {
-    const std::size_t triangles = description_.mesh.indices.size() / 3;
-    std::vector<std::uint8_t> seen(triangles, 0);
-    std::vector<std::size_t> open;
-    std::size_t pieces = 0;
-    for (std::size_t first = 0; first < triangles; ++first) {
-      if (seen[first] != 0) continue;
-      ++pieces;
-      seen[first] = 1;
-      open.push_back(first);
-      while (!open.empty()) {
-        const std::size_t t = open.back();
-        open.pop_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::size_t other = edges.opposite[3 * t + k] / 3;
-          if (seen[other] != 0) continue;
-          seen[other] = 1;
-          open.push_back(other);
-        }
-      }
-    }
-    return pieces;
   }
 
   void check_bone(const std::string& field, std::int32_t bone, std::uint32_t bone_count) {
@@ -153,7 +127,7 @@ class Checker {
   void check_fibres() {
     for (std::size_t i = 0; i < description_.fibres.size(); ++i) {
       const auto& points = description_.fibres[i].points;
-      const bool sound = points.size() >= 2 && std::all_of(points.begin(), points.end(), is_finite);
+      const bool sound = points.size() >= 2 && std::all_of(points.begin(), points.end(), is_finite<float>);
       if (!sound) fault(fmt::format("fibres/{}", i), "a fibre is two finite points or more", "correct or leave it out");
     }
   }
