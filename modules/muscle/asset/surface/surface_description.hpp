@@ -61,6 +61,36 @@ struct SurfaceSettings {
   bool collide_with_muscles = true;      // other surface muscles of the character
 };
 
+// How a muscle's shape is found.
+enum class SurfaceSolver {
+  kDynamic,     // position based dynamics, step after step (4.1)
+  kCoarseHull,  // from the pose alone, by a coarse hull and Gauss-Newton (4.5)
+};
+
+// One level of detail: how a muscle is solved while it is at least so large in the picture.
+struct SurfaceLevel {
+  SurfaceSolver solver = SurfaceSolver::kDynamic;
+  float above_pixels = 0.0f;             // pixels, the muscle's size in the picture; the last level: 0
+  std::uint32_t refinements = 2;         // of the coarse hull's result, in place of HullSettings'
+};
+
+// The coarse-hull solver's (4.5). Weights are beside the shape's own, which is 1.
+struct HullSettings {
+  std::uint32_t vertices = 300;          // of the hull, at most
+  float error = 0.0f;                    // m: how far the hull may be from the mesh; 0: as far as it must
+  std::uint32_t iterations = 10;         // Gauss-Newton's, at most
+  float tolerance = 1.0e-4f;             // of the muscle's size: an iteration that moves less is the last
+  std::uint32_t refinements = 2;         // iterations on the full mesh; 0: none
+  float bending = 1.0f;                  // weight of the Laplacian coordinates beside that of the edges
+  float direction = 1.0f;                // weight of the main direction
+};
+
+// A point of the muscle's line, from its origin to its insertion.
+struct ActionLinePoint {
+  std::int32_t bone = -1;                // index into the skeleton: the point goes with it
+  glm::vec3 position{0.0f};              // m, in the character's rest space
+};
+
 struct SurfaceMuscleDescription {
   std::string name;
   TriangleMesh mesh;                     // m, in the character's rest space: closed, orientable, one piece
@@ -71,6 +101,9 @@ struct SurfaceMuscleDescription {
   std::optional<FibreBundleSettings> fibre_bundle;  // inner fibres; none: the muscle has none
   std::string driver;                    // name of the musculotendon unit that carries it; empty: its bones do
   SurfaceSettings settings;
+  std::vector<SurfaceLevel> levels{{}};  // finest first; never empty
+  HullSettings hull;
+  std::vector<ActionLinePoint> action_line;  // the coarse hull's main direction; empty: the driver's line
   Diagnostic where;                      // file, line, column and path to quote in errors; empty: made in code
 };
 
