@@ -14,7 +14,8 @@ inline constexpr std::uint32_t kFewestHullVertices = 4;
 
 struct HullTarget {
   std::uint32_t vertices = 300;  // stop at so many
-  float error = 0.0f;            // m: stop before a hull vertex is further than this from the mesh; 0: no such limit
+  float error = 0.0f;            // m: no collapse whose new vertex would be further than this from the mesh; 0: any.
+                                 // (Triangles across hollows may be further still.)
 };
 
 struct ProgressiveHull {
@@ -25,9 +26,13 @@ struct ProgressiveHull {
   double overhead() const { return volume / fine_volume - 1.0; }
 };
 
-// `mesh`: closed, manifold, one piece, positive volume (check_surface.hpp makes sure). The result may have more vertices
-// than asked where no further edge can be collapsed: warned of, with the number; an error is only a mesh that is none.
-// The same mesh gives the same hull, bit for bit. No fine vertex is outside by more than 1e-6 of the mesh's size.
+// `mesh`: closed, every edge with two triangles that run along it in opposite directions, positive volume
+// (check_surface.hpp makes sure); all else is an error, and so is a negative distance. A mesh that has no more vertices
+// than asked for is its own hull. The hull may have more vertices than asked for, where nothing else collapses without
+// folding the hull or going further away than allowed: that is warned of, with the number.
+// The same mesh gives the same hull, bit for bit. It winds at least once round every point that the mesh winds round;
+// no fine vertex is outside by more than 1e-6 of the mesh's size (or the rounding of positions, if that is more). Where
+// the mesh passes close to itself the hull may pass through itself: triangles are only compared with those around.
 Result<ProgressiveHull> build_progressive_hull(const TriangleMesh& mesh, const HullTarget& target);
 
 }  // namespace fascicle::muscle
