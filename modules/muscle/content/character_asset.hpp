@@ -35,6 +35,7 @@ namespace fascicle::muscle {
 class BoneField;
 struct CollisionAsset;
 struct FibreBundleAsset;
+struct HullAsset;
 struct MuscleAsset;
 struct MuscleLevels;
 struct SurfaceAsset;
@@ -46,12 +47,20 @@ enum class FitMode {
   kNone,    // the unfitted shape
 };
 
+// What becomes of surface muscles that the coarse-hull solver may pose.
+enum class HullMode {
+  kStored,  // the hull stored beside the character file, where it is up to date; else made now
+  kFresh,   // made now
+  kNone,    // no hull: nothing is posed by one
+};
+
 struct LoadOptions {
   std::filesystem::path data_folder = {};  // what `data:` stands for; empty: find_data_folder()
   // Level of detail for all muscles, in place of what the file says.
   std::optional<std::uint32_t> section_vertices = std::nullopt;          // |C|, even, >= 6
   std::optional<std::uint32_t> longitudinal_subdivision = std::nullopt;  // LSS, 0..6
   FitMode fit = FitMode::kStored;
+  HullMode hulls = HullMode::kStored;
   bool bone_fields = true;  // for the collision of muscles; false: none are made
 };
 
@@ -86,6 +95,7 @@ struct CharacterAsset {
   std::vector<SurfaceMuscleDescription> surface_descriptions;
   std::vector<std::shared_ptr<const SurfaceAsset>> surface_muscles;  // by surface description
   std::vector<std::shared_ptr<const FibreBundleAsset>> fibre_bundles;  // likewise: inner fibres; null: it has none
+  std::vector<std::shared_ptr<const HullAsset>> hulls;  // likewise: coarse hulls; null: no level of it uses one
   // By description: 1 where a surface muscle that it drives is shown in its place, so that its own surface is not
   // drawn. It is posed, solved and measured all the same. Empty where there is no surface muscle.
   std::vector<std::uint8_t> hidden_muscles;

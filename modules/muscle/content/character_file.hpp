@@ -106,6 +106,14 @@ struct FibresEntry {
   Trs transform;          // scaled to metres, to the rest space
 };
 
+// A point of a surface muscle's line.
+struct LinePointEntry {
+  JsonNode node;
+  NameEntry bone;
+  std::optional<glm::vec3> position;  // empty: wrong or missing
+  bool in_rest_space = false;         // m; else in the mesh file's own coordinates and unit
+};
+
 // A muscle that is a deforming mesh.
 struct SurfaceMuscleEntry {
   JsonNode node;
@@ -125,6 +133,12 @@ struct SurfaceMuscleEntry {
   bool hide_driver = true;
   bool free = false;                 // it is attached to nothing on purpose
   SurfaceSettings settings;
+  std::vector<SurfaceLevel> levels{{}};  // finest first; never empty
+  JsonNode coarse_hull;              // what asks for that solver; without a node: nothing does
+  HullSettings hull;
+  JsonNode hull_node;
+  std::vector<LinePointEntry> action_line;  // from origin to insertion; empty: not given
+  JsonNode action_line_node;
   bool sound = false;                // read without an error
 };
 
@@ -177,6 +191,8 @@ CharacterFile read_character_file(const JsonNode& root, const ReadContext& conte
 // Parts of it, one object each.
 MuscleEntry read_muscle_entry(const JsonNode& node, const ReadContext& context);
 SurfaceMuscleEntry read_surface_muscle_entry(const JsonNode& node, const ReadContext& context);
+// "solver" or "levels", "hull" and "action_line" of a surface muscle; its driver and attachments are read.
+void read_surface_solver(JsonObject& object, SurfaceMuscleEntry& entry, const ReadContext& context);
 MeshEntry read_mesh_entry(const JsonNode& node, const ReadContext& context);
 NameEntry read_name(JsonObject& object, std::string_view field, bool required);
 // "level" of a character, or the same fields of a muscle.

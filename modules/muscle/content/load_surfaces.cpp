@@ -17,7 +17,9 @@
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/content/mirror.hpp"
 #include "modules/muscle/content/surface_attachments.hpp"
+#include "modules/muscle/content/surface_clearance.hpp"
 #include "modules/muscle/content/surface_fibres.hpp"
+#include "modules/muscle/content/surface_line.hpp"
 #include "modules/muscle/content/surface_mesh.hpp"
 
 namespace fascicle::muscle {
@@ -47,11 +49,16 @@ class SurfaceLoads {
     SurfaceMuscleDescription muscle;
     muscle.name = entry.name.text;
     muscle.settings = entry.settings;
+    muscle.levels = entry.levels;
+    muscle.hull = entry.hull;
     muscle.fibre_bundle = entry.inner_fibres;
     muscle.where = entry.node.where();
     for (const SurfaceAttachmentEntry& attachment : entry.attachments) {
       const std::int32_t bone = attachment.bone.given() ? find_bone(attachment.bone) : -1;
       muscle.attachments.push_back({bone, attachment.origin, {}});
+    }
+    for (const LinePointEntry& point : entry.action_line) {
+      muscle.action_line.push_back({point.bone.given() ? find_bone(point.bone) : -1, glm::vec3(0.0f)});
     }
     muscle.frame_bone = entry.frame.given() ? find_bone(entry.frame) : usual_frame(muscle);
     muscle.bones = bones_of(entry);
@@ -63,9 +70,11 @@ class SurfaceLoads {
     std::optional<SurfaceMesh> mesh = load_surface_mesh(entry, file_, base_, sources_, diagnostics_);
     if (!mesh) return std::nullopt;
     attach(entry, *mesh, muscle);
+    place_action_line(entry, *mesh, muscle, diagnostics_);
     muscle.fibres = load_fibres(entry.fibres, entry, file_, base_, mesh->rest, sources_, diagnostics_);
     muscle.mesh = std::move(mesh->rest);
     turn_fibres(muscle);
+    if (diagnostics_.errors.size() == errors_before) check_swallowed(muscle, asset_, diagnostics_);
     if (diagnostics_.errors.size() != errors_before) return std::nullopt;
     return muscle;
   }
@@ -211,6 +220,7 @@ class SurfaceLoads {
     image.name = *name;
     bool sound = mirror_bone(entry.node, image.frame_bone);
     for (SurfaceAttachment& attachment : image.attachments) sound = mirror_bone(entry.node, attachment.bone) && sound;
+    for (ActionLinePoint& point : image.action_line) sound = mirror_bone(entry.node, point.bone) && sound;
     if (!entry.all_bones) {
       for (std::int32_t& bone : image.bones) sound = mirror_bone(entry.node, bone) && sound;
       std::ranges::sort(image.bones);
@@ -233,6 +243,7 @@ class SurfaceLoads {
     for (FibreLine& fibre : image.fibres) {
       for (glm::vec3& point : fibre.points) point = mirror_point(point, rule.axis);
     }
+    for (ActionLinePoint& point : image.action_line) point.position = mirror_point(point.position, rule.axis);
     add(image, entry);
   }
 
@@ -295,6 +306,7 @@ void build_surface_muscles(CharacterAsset& asset, Diagnostics& diagnostics) {
   const auto bones = static_cast<std::uint32_t>(asset.skeleton->size());
   asset.surface_muscles.assign(count, nullptr);
   asset.fibre_bundles.assign(count, nullptr);
+  asset.hulls.assign(count, nullptr);
   std::vector<Diagnostics> found(count);
   parallel::for_range(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -197,6 +197,7 @@ SurfaceMuscleEntry read_surface_muscle_entry(const JsonNode& node, const ReadCon
   if (const JsonNode settings = object.optional("settings"); settings.exists()) {
     read_settings(settings, entry.settings, context);
   }
+  read_surface_solver(object, entry, context);
   finish_object(object, "surface_muscle", context);
   if (entry.free && !entry.attachments.empty()) {
     object.optional("free").error(context.diagnostics, "the muscle is free, and it has attachments",

@@ -193,8 +193,8 @@ std::optional<SurfaceMesh> load_surface_mesh(const SurfaceMuscleEntry& entry, co
   if (!piece) return std::nullopt;
   mesh.rest = std::move(*piece);
   mesh.in_file = mesh.rest.positions;
-  const glm::mat4 matrix = to_matrix(placement);
-  for (glm::vec3& position : mesh.rest.positions) position = glm::vec3(matrix * glm::vec4(position, 1.0f));
+  mesh.placement = to_matrix(placement);
+  for (glm::vec3& position : mesh.rest.positions) position = glm::vec3(mesh.placement * glm::vec4(position, 1.0f));
   if (placement.scale.x * placement.scale.y * placement.scale.z < 0.0f) {  // a reflection turns it inside out
     for (std::size_t i = 0; i + 2 < mesh.rest.indices.size(); i += 3) {
       std::swap(mesh.rest.indices[i + 1], mesh.rest.indices[i + 2]);

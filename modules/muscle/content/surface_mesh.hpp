@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
+
 #include "engine/content/triangle_mesh.hpp"
 #include "modules/muscle/content/character_file.hpp"
 #include "modules/muscle/content/content_sources.hpp"
@@ -18,6 +20,7 @@ struct SurfaceMesh {
   std::shared_ptr<const TriangleMesh> source;  // as read, in the file's own coordinates and unit
   TriangleMesh rest;                           // mended, m, rest space
   std::vector<glm::vec3> in_file;              // by vertex of `rest`: where it stands in the file
+  glm::mat4 placement{1.0f};                   // from there to the rest space
 };
 
 // `base` is the folder of `file`.

@@ -44,7 +44,7 @@ constexpr std::string_view kEmptyCharacter = R"({ "skeleton": {}, "skin": {}, "b
   "mirror": {}, "level": {}, "fit": {}, "muscles": [{ "origin": { "area": {} }, "via": [{}], "insertion": {},
   "profile": {}, "tendon": {}, "mesh": {} }],
   "surface_muscles": [{ "mesh": {}, "attachments": [{ "near": {} }, { "beyond": {} }], "fibres": [{}],
-  "inner_fibres": {}, "settings": {} }] })";
+  "inner_fibres": {}, "settings": {}, "levels": [{}], "hull": {}, "action_line": [{}, {}] }] })";
 constexpr std::string_view kEmptyCollision =
     R"({ "settings": {}, "transversals": [{ "first": {}, "second": {} }], "stay_out": [{}], "ignore": [{}] })";
 constexpr std::string_view kEmptyScene = R"({ "characters": [{ "animation": {} }], "camera": {} })";
@@ -62,7 +62,9 @@ const std::map<std::string, std::string> kKindOfPath = {
     {"/surface_muscles/0/attachments/1", "surface_attachment"},
     {"/surface_muscles/0/attachments/0/near", "near"}, {"/surface_muscles/0/attachments/1/beyond", "plane"},
     {"/surface_muscles/0/fibres/0", "fibres"}, {"/surface_muscles/0/inner_fibres", "inner_fibres"},
-    {"/surface_muscles/0/settings", "surface_settings"}};
+    {"/surface_muscles/0/settings", "surface_settings"}, {"/surface_muscles/0/levels/0", "surface_level"},
+    {"/surface_muscles/0/hull", "hull"}, {"/surface_muscles/0/action_line/0", "line_point"},
+    {"/surface_muscles/0/action_line/1", "line_point"}};
 
 struct Known {
   FieldLog fields;

@@ -59,6 +59,53 @@ double number_at(const JsonNode& schema, std::string_view key) {
   return value;
 }
 
+struct HullRow {
+  const char* field;
+  NumberRange range;
+  bool whole;
+  std::function<double(const HullSettings&)> value;  // in the file's unit
+};
+
+const std::vector<HullRow>& hull_rows() {
+  using H = HullSettings;
+  static const std::vector<HullRow> all{
+      {"vertices", kHullVerticesRange, true, [](const H& h) { return double(h.vertices); }},
+      {"error_mm", kHullErrorRange, false, [](const H& h) { return 1e3 * double(h.error); }},
+      {"iterations", kHullIterationsRange, true, [](const H& h) { return double(h.iterations); }},
+      {"tolerance", kHullToleranceRange, false, [](const H& h) { return double(h.tolerance); }},
+      {"refinements", kRefinementsRange, true, [](const H& h) { return double(h.refinements); }},
+      {"bending", kHullWeightRange, false, [](const H& h) { return double(h.bending); }},
+      {"direction", kHullWeightRange, false, [](const H& h) { return double(h.direction); }},
+  };
+  return all;
+}
+
+SurfaceMuscleEntry read_hull(const std::string& fields, Diagnostics& found) {
+  const JsonDocument document =
+      *parse_json(fmt::format(R"({{ "name": "m", "mesh": "m", "hull": {{ {} }} }})", fields), "m.character.json");
+  return read_surface_muscle_entry(document.root(), {found});
+}
+
+TEST(SurfaceLimits, OfAHullAreKept) {
+  for (const HullRow& row : hull_rows()) {
+    for (const double value : {row.range.max + 1.0, row.range.min - 1.0}) {
+      Diagnostics found;
+      EXPECT_FALSE(read_hull(fmt::format("\"{}\": {}", row.field, value), found).sound);
+      ASSERT_EQ(found.errors.size(), 1u) << row.field << ' ' << value;
+      EXPECT_NE(found.errors[0].cause.find("out of range"), std::string::npos) << found.errors[0].cause;
+      EXPECT_EQ(found.errors[0].path, fmt::format("/hull/{}", row.field));
+    }
+    for (const double value : {row.range.max, row.range.min}) {
+      Diagnostics found;
+      const SurfaceMuscleEntry entry = read_hull(fmt::format("\"{}\": {}", row.field, value), found);
+      EXPECT_TRUE(found.ok()) << to_text(found);
+      EXPECT_NEAR(row.value(entry.hull), value, 1e-6 * std::abs(value)) << row.field;
+    }
+    Diagnostics found;
+    EXPECT_EQ(read_hull(fmt::format("\"{}\": {}", row.field, 0.0625), found).sound, !row.whole) << row.field;
+  }
+}
+
 TEST(SurfaceLimits, WhatIsBeyondIsRefused) {
   for (const Row& row : rows()) {
     for (const double value : {row.range.max + 1.0, row.range.min - 1.0}) {
@@ -100,6 +147,14 @@ TEST(SurfaceLimits, TheSchemaHasThemAndTheDefaults) {
     const double value = row.value(SurfaceSettings{});
     EXPECT_NEAR(number_at(field, "default"), value, 1e-6 * std::max(1.0, std::abs(value))) << row.field;
   }
+  const JsonNode hull = definitions.member("hull").member("properties");
+  EXPECT_EQ(hull.size(), hull_rows().size());
+  for (const HullRow& row : hull_rows()) {
+    const JsonNode field = hull.member(row.field);
+    EXPECT_EQ(number_at(field, "minimum"), row.range.min) << row.field;
+    EXPECT_EQ(number_at(field, "maximum"), row.range.max) << row.field;
+    EXPECT_NEAR(number_at(field, "default"), row.value(HullSettings{}), 1e-7) << row.field;
+  }
   const auto expect_range = [&](const char* kind, const char* name, const NumberRange& range) {
     const JsonNode field = definitions.member(kind).member("properties").member(name);
     EXPECT_EQ(number_at(field, range.above_min ? "exclusiveMinimum" : "minimum"), range.min) << kind << ' ' << name;
@@ -110,9 +165,18 @@ TEST(SurfaceLimits, TheSchemaHasThemAndTheDefaults) {
   expect_range("plane", "at", kPlaneRange);
   expect_range("fibres", "head", kHeadRange);
   expect_range("surface_muscle", "piece", kPieceRange);
+  expect_range("surface_level", "above_pixels", kAbovePixelsRange);
+  expect_range("surface_level", "refinements", kRefinementsRange);
   expect_range("inner_fibres", "count", kFibreCountRange);
   expect_range("inner_fibres", "points", kPointsPerFibreRange);
   expect_range("inner_fibres", "pennation", kFibrePennationRange);
+  const auto count_at = [&](const char* field) {
+    return number_at(definitions.member("surface_muscle").member("properties").member(field), "maxItems");
+  };
+  EXPECT_EQ(count_at("levels"), kMostSurfaceLevels);
+  EXPECT_EQ(count_at("action_line"), kMostLinePoints);
+  const JsonNode at = definitions.member("line_point").member("properties").member("at").member("items");
+  EXPECT_EQ(number_at(at, "maximum"), kLinePointRange.max);
   const JsonNode inner = definitions.member("inner_fibres").member("properties");
   EXPECT_EQ(number_at(inner.member("count"), "default"), FibreBundleSettings{}.count);
   EXPECT_EQ(number_at(inner.member("points"), "default"), FibreBundleSettings{}.points);
