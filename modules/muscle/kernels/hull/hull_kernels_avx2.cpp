@@ -1,0 +1,1 @@
+#include "modules/muscle/kernels/hull/hull_kernel_table.hpp"
