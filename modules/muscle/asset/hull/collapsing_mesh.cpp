@@ -6,10 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "modules/muscle/asset/hull/progressive_hull.hpp"
+
 namespace fascicle::muscle {
 namespace {
-
-constexpr std::uint32_t kFewest = 4;
 
 bool has(const CollapsingMesh::Triangle& triangle, std::uint32_t vertex) {
   return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
@@ -40,7 +40,7 @@ void CollapsingMesh::measure(std::uint32_t triangle) {
 }
 
 bool CollapsingMesh::can_collapse(std::uint32_t u, std::uint32_t v) {
-  if (live_vertices_ <= kFewest) return false;
+  if (live_vertices_ <= kFewestHullVertices) return false;
   std::uint32_t shared = 0;
   ++mark_;
   for (const std::uint32_t t : fans_[u]) {

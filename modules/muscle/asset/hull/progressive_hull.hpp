@@ -11,6 +11,8 @@
 namespace fascicle::muscle {
 
 inline constexpr std::uint32_t kFewestHullVertices = 4;
+// Grows whenever the same mesh would give another hull: stored ones are then out of date.
+inline constexpr std::uint32_t kHullVersion = 1;
 
 struct HullTarget {
   std::uint32_t vertices = 300;  // stop at so many
