@@ -9,7 +9,7 @@
 // determinant is that of the shortest X, whose direction is the least certain. So what rounding does is what moving x
 // by rounding would do. The side's angle comes from sine and cosine together, which arc cosines would lose at 0 and pi.
 //
-// Four points go side by side, for each the same operations in the same order.
+// Two points go side by side, for each the same operations in the same order.
 #include "modules/muscle/asset/hull/mean_value_coordinates.hpp"
 
 #include <algorithm>
@@ -43,44 +43,44 @@ constexpr double kResidual = 1.0e-12;
 constexpr double kNoSum = 1.0e-9;
 
 constexpr std::size_t kPointsPerChunk = 64;
-constexpr std::size_t kLanes = 4;
-typedef double Four __attribute__((vector_size(kLanes * sizeof(double))));
+constexpr std::size_t kLanes = 2;  // as many as every processor's registers hold: wider ones go by single numbers
+typedef double Wide __attribute__((vector_size(kLanes * sizeof(double))));
 
-struct FourVectors {
-  Four x, y, z;
+struct WideVectors {
+  Wide x, y, z;
 };
-FourVectors operator+(const FourVectors& a, const FourVectors& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-FourVectors operator*(const Four& s, const FourVectors& a) { return {s * a.x, s * a.y, s * a.z}; }
-Four dot(const FourVectors& a, const FourVectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-FourVectors cross(const FourVectors& a, const FourVectors& b) {
+WideVectors operator+(const WideVectors& a, const WideVectors& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+WideVectors operator*(const Wide& s, const WideVectors& a) { return {s * a.x, s * a.y, s * a.z}; }
+Wide dot(const WideVectors& a, const WideVectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+WideVectors cross(const WideVectors& a, const WideVectors& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-Four broadcast(double value) { return Four{} + value; }
-Four larger(const Four& a, const Four& b) { return a < b ? b : a; }
-Four square_root(const Four& a) {
-  Four root;
+Wide broadcast(double value) { return Wide{} + value; }
+Wide larger(const Wide& a, const Wide& b) { return a < b ? b : a; }
+Wide square_root(const Wide& a) {
+  Wide root;
   for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(a[lane]);
   return root;
 }
 
 // The angle in [0, pi] with this sine >= 0 and cosine, not both 0, to rounding: reduced by eighths of a turn to
 // |t| <= tan(pi / 8), where atan(t) = t + t^3 R(t^2) with R of least error, 3e-17.
-Four angle_of(const Four& sine, const Four& cosine) {
+Wide angle_of(const Wide& sine, const Wide& cosine) {
   constexpr double kPi = std::numbers::pi, kSteep = 2.414213562373095, kFlat = 0.41421356237309505;
-  const Four c = cosine < 0.0 ? -cosine : cosine;
+  const Wide c = cosine < 0.0 ? -cosine : cosine;
   const auto steep = sine > kSteep * c, middle = sine > kFlat * c;
-  const Four upper = steep ? -c : middle ? sine - c : sine;
-  const Four lower = steep ? sine : middle ? sine + c : c;
-  const Four base = steep ? broadcast(0.5 * kPi) : middle ? broadcast(0.25 * kPi) : Four{};
-  const Four t = upper / lower, z = t * t;
-  Four r = broadcast(-0.019176887119062259);
+  const Wide upper = steep ? -c : middle ? sine - c : sine;
+  const Wide lower = steep ? sine : middle ? sine + c : c;
+  const Wide base = steep ? broadcast(0.5 * kPi) : middle ? broadcast(0.25 * kPi) : Wide{};
+  const Wide t = upper / lower, z = t * t;
+  Wide r = broadcast(-0.019176887119062259);
   for (const double coefficient :
-       {0.0392316582955871913, -0.0508544973794025986, 0.0585814891280220988, -0.06664511447381948, 0.0769218319082608656,
-        -0.0909090457812390189, 0.111111110152563617, -0.142857142846665429, 0.199999999999955207,
-        -0.333333333333333302}) {
+       {0.0392316582955871913, -0.0508544973794025986, 0.0585814891280220988, -0.06664511447381948,
+        0.0769218319082608656, -0.0909090457812390189, 0.111111110152563617, -0.142857142846665429,
+        0.199999999999955207, -0.333333333333333302}) {
     r = r * z + coefficient;
   }
-  const Four angle = base + (t + t * z * r);
+  const Wide angle = base + (t + t * z * r);
   return cosine < 0.0 ? kPi - angle : angle;
 }
 
@@ -179,27 +179,27 @@ void weigh_on_hull(const Hull& hull, const glm::dvec3& x, Weigh&& weigh) {
   weigh(corner[2], glm::dot(glm::cross(a, b), normal) / square);
 }
 
-// Four points' rows, for one chunk of points after another.
-class FourRows {
+// A few points' rows, for one chunk of points after another.
+class WideRows {
  public:
-  explicit FourRows(const Hull& hull)
+  explicit WideRows(const Hull& hull)
       : hull_(hull), directions_(hull.positions.size()), sides_(hull.edges.size()), rows_(hull.positions.size()) {}
 
   // `out`: a row of the hull's vertices for each point.
   void find(std::span<const glm::vec3> points, float* out) {
     std::array<glm::dvec3, kLanes> x;
-    FourVectors at;
+    WideVectors at;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       x[lane] = points[std::min(lane, points.size() - 1)];
       at.x[lane] = x[lane].x, at.y[lane] = x[lane].y, at.z[lane] = x[lane].z;
     }
-    const Four on_hull = weigh(at);
+    const Wide on_hull = weigh(at);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (on_hull[lane] == 0.0) continue;
       for (Row& row : rows_) row.weight[lane] = 0.0;
       weigh_on_hull(hull_, x[lane], [&](std::uint32_t v, double weight) { rows_[v].weight[lane] = weight; });
     }
-    const Four exists = normalise(at);
+    const Wide exists = normalise(at);
     const std::size_t count = rows_.size();
     for (std::size_t lane = 0; lane < points.size(); ++lane) {
       float* row = out + lane * count;
@@ -210,51 +210,51 @@ class FourRows {
 
  private:
   struct Direction {
-    FourVectors unit;
-    Four inverse;  // 1 / m
+    WideVectors unit;
+    Wide inverse;  // 1 / m
   };
   struct Side {
-    Four ratio;    // angle / sine
+    Wide ratio;    // angle / sine
   };
   struct Row {
-    Four weight;
+    Wide weight;
   };
 
   // Not yet normalised. 1 in lanes whose point lies on the hull, and 0 in the others.
-  Four weigh(const FourVectors& at) {
-    Four on_hull{};
+  Wide weigh(const WideVectors& at) {
+    Wide on_hull{};
     for (std::size_t v = 0; v < rows_.size(); ++v) {
       const glm::dvec3& p = hull_.positions[v];
-      const FourVectors way{p.x - at.x, p.y - at.y, p.z - at.z};
-      const Four distance = square_root(dot(way, way));
-      const Four inverse = 1.0 / (distance == 0.0 ? broadcast(1.0) : distance);
+      const WideVectors way{p.x - at.x, p.y - at.y, p.z - at.z};
+      const Wide distance = square_root(dot(way, way));
+      const Wide inverse = 1.0 / (distance == 0.0 ? broadcast(1.0) : distance);
       on_hull = distance == 0.0 ? broadcast(1.0) : on_hull;
       directions_[v] = {inverse * way, inverse};
-      rows_[v].weight = Four{};
+      rows_[v].weight = Wide{};
     }
     for (std::size_t e = 0; e < sides_.size(); ++e) {
-      const FourVectors &a = directions_[hull_.edges[e].a].unit, &b = directions_[hull_.edges[e].b].unit;
-      const FourVectors normal = cross(a, b);
-      const Four sine = square_root(dot(normal, normal)), cosine = dot(a, b);
+      const WideVectors &a = directions_[hull_.edges[e].a].unit, &b = directions_[hull_.edges[e].b].unit;
+      const WideVectors normal = cross(a, b);
+      const Wide sine = square_root(dot(normal, normal)), cosine = dot(a, b);
       const auto straight = sine <= kOnEdge;
       on_hull = straight && cosine < 0.0 ? broadcast(1.0) : on_hull;
       // At an angle of 0 the ratio is 1.
       sides_[e].ratio = straight ? broadcast(1.0) : angle_of(sine, cosine) / sine;
     }
     for (const Hull::Triangle& triangle : hull_.triangles) {
-      const FourVectors &ua = directions_[triangle.corner[0]].unit, &ub = directions_[triangle.corner[1]].unit,
+      const WideVectors &ua = directions_[triangle.corner[0]].unit, &ub = directions_[triangle.corner[1]].unit,
                         &uc = directions_[triangle.corner[2]].unit;
-      const Four ra = sides_[triangle.opposite[0]].ratio, rb = sides_[triangle.opposite[1]].ratio,
+      const Wide ra = sides_[triangle.opposite[0]].ratio, rb = sides_[triangle.opposite[1]].ratio,
                  rc = sides_[triangle.opposite[2]].ratio;
-      const FourVectors xa = cross(ub, uc), xb = cross(uc, ua), xc = cross(ua, ub);
-      const FourVectors mean = ra * xa + (rb * xb + rc * xc);  // twice
-      const Four sa = dot(xa, xa), sb = dot(xb, xb), sc = dot(xc, xc);
-      const Four longest = larger(ra * ra * sa, larger(rb * rb * sb, rc * rc * sc));  // angle, squared
-      const Four determinant = sa < sb ? (sa < sc ? dot(xa, ua) : dot(xc, uc)) : (sb < sc ? dot(xb, ub) : dot(xc, uc));
+      const WideVectors xa = cross(ub, uc), xb = cross(uc, ua), xc = cross(ua, ub);
+      const WideVectors mean = ra * xa + (rb * xb + rc * xc);  // twice
+      const Wide sa = dot(xa, xa), sb = dot(xb, xb), sc = dot(xc, xc);
+      const Wide longest = larger(ra * ra * sa, larger(rb * rb * sb, rc * rc * sc));  // angle, squared
+      const Wide determinant = sa < sb ? (sa < sc ? dot(xa, ua) : dot(xc, uc)) : (sb < sc ? dot(xb, ub) : dot(xc, uc));
       const auto counts = dot(mean, mean) > 4.0 * kEdgeOn * kEdgeOn * longest;
       const auto flat = determinant == 0.0;
       on_hull = counts && flat ? broadcast(1.0) : on_hull;
-      const Four inverse = counts ? 1.0 / (flat ? broadcast(1.0) : determinant) : Four{};
+      const Wide inverse = counts ? 1.0 / (flat ? broadcast(1.0) : determinant) : Wide{};
       rows_[triangle.corner[0]].weight += dot(mean, xa) * inverse;
       rows_[triangle.corner[1]].weight += dot(mean, xb) * inverse;
       rows_[triangle.corner[2]].weight += dot(mean, xc) * inverse;
@@ -265,28 +265,28 @@ class FourRows {
 
   // To a sum of 1; then, where the rows miss 1 or the point by more than kResidual, by the least change (in the sum of
   // squares over all vertices) that does not: delta_v = a + b . p_v. 0 in lanes whose weights have no sum, else 1.
-  Four normalise(const FourVectors& at) {
-    Four sum{}, magnitude{};
+  Wide normalise(const WideVectors& at) {
+    Wide sum{}, magnitude{};
     for (const Row& row : rows_) {
       sum += row.weight;
       magnitude += row.weight < 0.0 ? -row.weight : row.weight;
     }
-    const Four scale = 1.0 / sum;
-    Four one = broadcast(1.0);
-    FourVectors rest{(at.x - hull_.mean.x) / hull_.size, (at.y - hull_.mean.y) / hull_.size,
+    const Wide scale = 1.0 / sum;
+    Wide one = broadcast(1.0);
+    WideVectors rest{(at.x - hull_.mean.x) / hull_.size, (at.y - hull_.mean.y) / hull_.size,
                      (at.z - hull_.mean.z) / hull_.size};
     for (std::size_t v = 0; v < rows_.size(); ++v) {
-      Four& weight = rows_[v].weight;
+      Wide& weight = rows_[v].weight;
       weight *= scale;
       one -= weight;
       const glm::dvec3& p = hull_.about[v];
       rest.x -= weight * p.x, rest.y -= weight * p.y, rest.z -= weight * p.z;
     }
-    const Four miss = one * one + dot(rest, rest);
-    const Four wanted = miss > kResidual * kResidual ? broadcast(1.0) : Four{};
-    const Four a = wanted * one / static_cast<double>(rows_.size());
+    const Wide miss = one * one + dot(rest, rest);
+    const Wide wanted = miss > kResidual * kResidual ? broadcast(1.0) : Wide{};
+    const Wide a = wanted * one / static_cast<double>(rows_.size());
     const glm::dmat3& m = hull_.inverse;
-    const FourVectors b{wanted * (m[0][0] * rest.x + m[1][0] * rest.y + m[2][0] * rest.z),
+    const WideVectors b{wanted * (m[0][0] * rest.x + m[1][0] * rest.y + m[2][0] * rest.z),
                         wanted * (m[0][1] * rest.x + m[1][1] * rest.y + m[2][1] * rest.z),
                         wanted * (m[0][2] * rest.x + m[1][2] * rest.y + m[2][2] * rest.z)};
     for (std::size_t v = 0; v < rows_.size(); ++v) {
@@ -294,7 +294,7 @@ class FourRows {
       rows_[v].weight += a + (b.x * p.x + b.y * p.y + b.z * p.z);
     }
     // Not so where something is no number, either.
-    return (sum < 0.0 ? -sum : sum) > kNoSum * magnitude && magnitude * 0.0 == 0.0 ? broadcast(1.0) : Four{};
+    return (sum < 0.0 ? -sum : sum) > kNoSum * magnitude && magnitude * 0.0 == 0.0 ? broadcast(1.0) : Wide{};
   }
 
   const Hull& hull_;
@@ -316,7 +316,7 @@ void find_mean_value_coordinates(const TriangleMesh& hull, std::span<const glm::
     return;
   }
   parallel::for_range(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
-    FourRows rows(prepared);
+    WideRows rows(prepared);
     for (std::size_t i = begin; i < end; i += kLanes) {
       rows.find(points.subspan(i, std::min(kLanes, end - i)), weights.data() + i * count);
     }

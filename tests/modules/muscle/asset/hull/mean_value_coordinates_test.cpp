@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <numeric>
 
 #include "engine/parallel/worker_arena.hpp"
 #include "tests/modules/muscle/asset/hull/coordinate_rows.hpp"
@@ -124,10 +122,10 @@ TEST(MeanValueCoordinates, WhateverTheTrianglesWeightsAreFinite) {
 TEST(MeanValueCoordinates, OfATetrahedronAreBarycentric) {
   const TriangleMesh hull = make_corner(2.0f);
   // Inside, on faces, edges and vertices, in a face's plane, outside.
-  const std::vector<glm::vec3> points = {{0.5f, 0.25f, 0.125f}, {0.01f, 1.5f, 0.2f}, {0.5f, 0.5f, 0.0f}, {0.0f, 1.0f, 0.25f},
-                                         {0.5f, 0.5f, 1.0f}, {0.25f, 0.0f, 0.0f}, {0.0f, 1.5f, 0.5f}, {0.0f, 0.0f, 0.0f},
-                                         {0.0f, 2.0f, 0.0f}, {3.0f, 4.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 3.0f},
-                                         {-0.5f, -0.25f, 0.125f}, {0.5f, 0.5f, -1e-6f}, {0.5f, 1e-7f, 1e-9f}};
+  const std::vector<glm::vec3> points = {
+      {0.5f, 0.25f, 0.125f},   {0.01f, 1.5f, 0.2f},   {0.5f, 0.5f, 0.0f},  {0.0f, 1.0f, 0.25f}, {0.5f, 0.5f, 1.0f},
+      {0.25f, 0.0f, 0.0f},     {0.0f, 1.5f, 0.5f},    {0.0f, 0.0f, 0.0f},  {0.0f, 2.0f, 0.0f},  {3.0f, 4.0f, 0.0f},
+      {-0.5f, -0.25f, 0.125f}, {0.5f, 0.5f, -1e-6f},  {-1.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 3.0f},  {0.5f, 1e-7f, 1e-9f}};
   for (const TriangleMesh& mesh : {hull, inside_out(hull)}) {
     for (const glm::vec3& p : points) {
       const glm::dvec3 b = 0.5 * glm::dvec3(p);
@@ -217,8 +215,9 @@ TEST(MeanValueCoordinates, AreContinuousAtAConcaveEdge) {
 
 TEST(MeanValueCoordinates, AreContinuousInThePlaneOfAFarTriangle) {
   // In a leg at the height of the bottom's inner face, on its edges' lines, and outside in the planes of two faces.
-  for (const glm::vec3& place : {glm::vec3(0.5f, 1.0f, 0.25f), glm::vec3(0.5f, 1.0f, 0.5f), glm::vec3(-1.0f, 3.0f, 0.5f),
-                                 glm::vec3(5.0f, 3.0f, 1.0f), glm::vec3(1.5f, 2.0f, 1.0f), glm::vec3(-2.0f, 0.0f, 0.0f)}) {
+  for (const glm::vec3& place :
+       {glm::vec3(0.5f, 1.0f, 0.25f), glm::vec3(0.5f, 1.0f, 0.5f), glm::vec3(-1.0f, 3.0f, 0.5f),
+        glm::vec3(5.0f, 3.0f, 1.0f), glm::vec3(1.5f, 2.0f, 1.0f), glm::vec3(-2.0f, 0.0f, 0.0f)}) {
     glm::mat4 motion(1.0f);
     motion[3] = glm::vec4(-place, 1.0f);
     const TriangleMesh hull = moved(make_gutter(), motion);
@@ -280,7 +279,8 @@ TEST(MeanValueCoordinates, ReproduceAffineMotionsAtAnySizeAndPlace) {
     for (int k = 0; k < 5; ++k) {
       glm::dmat4 motion(1.0);
       for (int c = 0; c < 4; ++c) {
-        motion[c] += glm::dvec4(glm::dvec3(numbers.point(-1.0f, 1.0f)), 0.0) * (c == 3 ? static_cast<double>(size) : 1.0);
+        const double scale = c == 3 ? static_cast<double>(size) : 1.0;
+        motion[c] += scale * glm::dvec4(glm::dvec3(numbers.point(-1.0f, 1.0f)), 0.0);
       }
       EXPECT_LT(missed(rows, hull, points, motion), 3.0e-6 * static_cast<double>(size));
     }
