@@ -30,7 +30,7 @@ ScreenshotRequest parse_screenshot(const std::string& text) {
 ParsedOptions parse_options(int argc, const char* const* argv) {
   ParsedOptions parsed;
   GameOptions& options = parsed.options;
-  std::string screenshot, detail = "auto";
+  std::string screenshot, detail = "auto", solver;
   bool no_draw = false;
 
   CLI::App app("Fascicle: muscles on a walking character. Without arguments: the walker, in a window.", "fascicle");
@@ -52,6 +52,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->check(CLI::IsMember({"portable", "avx2", "avx512"}));
   app.add_option("--level", detail, "Muscles' level of detail: auto (by size in the picture), 0 (finest), 1, ...")
       ->check(CLI::IsMember({"auto"}) | CLI::Range(std::uint32_t{0}, kCoarsestLevel));
+  app.add_option("--surface-solver", solver,
+                 "Who shapes muscles that are meshes and have a coarse hull: dynamic, coarse_hull (default: as their\n"
+                 "levels of detail say)")
+      ->check(CLI::IsMember({"dynamic", "coarse_hull"}));
   app.add_option("--stats", options.stats_file, "Write the time per system (.csv, .json, else a table)");
   app.add_flag("--detail", options.detail, "Statistics per character and per muscle as well");
   app.add_option("--trace", options.trace_file, "Write a Chrome trace, which ui.perfetto.dev opens");
@@ -82,6 +86,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     return parsed;
   }
   options.draw = !no_draw;
+  if (solver == "dynamic") options.surface_solver = muscle::SurfaceSolver::kDynamic;
+  if (solver == "coarse_hull") options.surface_solver = muscle::SurfaceSolver::kCoarseHull;
   if (detail != "auto") options.level = static_cast<std::uint32_t>(std::stoul(detail));
   if (const auto level = parse_simd_level(options.simd); level && *level > detect_simd()) {
     std::fprintf(stderr, "--simd %s: this processor has no more than %s; leave the option out\n",

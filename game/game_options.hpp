@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "modules/muscle/asset/surface/surface_description.hpp"
+
 namespace fascicle::game {
 
 // A PNG to write: after frame `frame` (counted from 1), or after the last one.
@@ -23,6 +25,7 @@ struct GameOptions {
   int copies = 1;                        // how often the scene's characters are spawned, side by side
   std::string simd;                      // portable, avx2, avx512; empty: the best that the machine has
   std::optional<std::uint32_t> level;    // of detail, 0 the finest; absent: by size in the picture
+  std::optional<muscle::SurfaceSolver> surface_solver;  // of those that have a hull; absent: as their levels say
   std::string stats_file;                // .csv, .json, else a table
   std::string trace_file;
   std::string report_file;

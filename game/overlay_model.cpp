@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/muscle.hpp"
 
@@ -16,8 +17,8 @@ namespace {
 constexpr std::array<const char*, 4> kLevelNames = {"at level 0", "at level 1", "at level 2", "at coarser levels"};
 constexpr float kSmoothing = 0.1f;  // weight of the newest step in a system's shown time
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr std::array<const char*, kOverlayValues> kColumnNames = {"length mm", "vol cm3",  "vol %",    "force N",
-                                                                  "contacts",  "deep mm", "vertices", "solve us"};
+constexpr std::array<const char*, kOverlayValues> kColumnNames = {
+    "length mm", "vol cm3", "vol %", "force N", "contacts", "deep mm", "vertices", "hull its", "solve us"};
 
 OverlayItem make_item(std::string_view name) {
   OverlayItem item{.name = name};
@@ -106,14 +107,18 @@ void OverlayFeed::read_costs(const Simulation& simulation) {
   if (builds_++ % kBuildsBetween != 0) return;
   costs_ = simulation.world().resource<CostLedger>().statistics();
   std::erase_if(costs_, [](const ItemCost& cost) {
-    return cost.system != "solve_muscles" && cost.system != "solve_surface_muscles";
+    return cost.system != "solve_muscles" && cost.system != "solve_surface_muscles" &&
+           cost.system != "pose_surface_muscles";
   });
 }
 
 float OverlayFeed::cost_of(const std::string& owner, const std::string& item) const {
-  const auto cost = std::find_if(costs_.begin(), costs_.end(),
-                                 [&](const ItemCost& c) { return c.item == item && c.owner == owner; });
-  return cost == costs_.end() ? kNothing : static_cast<float>(1e3 * cost->mean_ms);
+  float sum = kNothing;  // of the solvers that it has had
+  for (const ItemCost& cost : costs_) {
+    if (cost.item != item || cost.owner != owner) continue;
+    sum = (std::isnan(sum) ? 0.0f : sum) + static_cast<float>(1e3 * cost.mean_ms);
+  }
+  return sum;
 }
 
 void OverlayFeed::list_items(const Simulation& simulation, std::size_t shown) {
@@ -150,7 +155,8 @@ void OverlayFeed::list_units(const Simulation& simulation, const SpawnedCharacte
   }
 }
 
-// One that has fallen back to where its carriers bring it is painted amber. Its length is its fibres' mean.
+// One that has fallen back to where its carriers bring it is painted amber. Its length is its fibres' mean. One that
+// its coarse hull poses has the iterations that this took.
 void OverlayFeed::list_surfaces(const Simulation& simulation, const SpawnedCharacter& character,
                                 const std::string& owner) {
   const ecs::World& world = simulation.world();
@@ -162,6 +168,10 @@ void OverlayFeed::list_surfaces(const Simulation& simulation, const SpawnedChara
       item.values[kShare] = 100.0f * static_cast<float>(state.volume / surface.asset->volume);
     }
     item.values[kVertices] = static_cast<float>(surface.asset->vertex_count);
+    const auto* hull = world.try_get<muscle::SurfaceHull>(entity);
+    if (hull != nullptr && hull->solver == muscle::SurfaceSolver::kCoarseHull) {
+      item.values[kHull] = static_cast<float>(hull->pose.iterations);
+    }
     item.warning = state.fallbacks > 0;
     if (const auto* contacts = world.try_get<muscle::SurfaceContacts>(entity)) {
       float vertices = 0.0f, depth = 0.0f;

@@ -61,7 +61,7 @@ class OverlayFeed {
 
  private:
   // A column of the list of muscles, and how it is filled in.
-  enum Column : std::size_t { kLength, kVolume, kShare, kForce, kContacts, kDepth, kVertices, kSolve, kColumns };
+  enum Column : std::size_t { kLength, kVolume, kShare, kForce, kContacts, kDepth, kVertices, kHull, kSolve, kColumns };
 
   void list_items(const Simulation& simulation, std::size_t shown);
   void list_units(const Simulation& simulation, const SpawnedCharacter& character, const std::string& owner);

@@ -67,6 +67,7 @@ int run_headless(const GameOptions& options, std::shared_ptr<const muscle::Scene
   Simulation simulation(scene, {.workers = options.threads,
                                 .copies = options.copies,
                                 .simd = parse_simd_level(options.simd).value_or(detect_simd()),
+                                .surface_solver = options.surface_solver,
                                 .skin_meshes = options.draw});
   std::optional<SceneView> view;
   DrawView draw_view;

@@ -33,6 +33,7 @@ class WindowRun {
         simulation_(scene, {.workers = options.threads,
                             .copies = options.copies,
                             .simd = parse_simd_level(options.simd).value_or(detect_simd()),
+                            .surface_solver = options.surface_solver,
                             .skin_meshes = true}),
         scene_view_(simulation_, *screen.renderer),
         feed_(scene->name, fmt::format("{}, {} workers", screen.info.renderer, simulation_.workers().workers())),

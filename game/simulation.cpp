@@ -140,6 +140,8 @@ void Simulation::spawn_surfaces(SpawnedCharacter& spawned) {
       settings.collide_with_bones = settings.collide_with_itself = settings.collide_with_muscles = false;
     }
     if (asset.fibre_bundles[i]) muscle::add_fibres(world_, entity, asset.fibre_bundles[i]);
+    muscle::add_hull(world_, entity, asset.hulls[i]);
+    if (muscle::SurfaceHull* hull = world_.try_get<muscle::SurfaceHull>(entity)) hull->forced = options_.surface_solver;
     spawned.surfaces.push_back(entity);
   }
 }

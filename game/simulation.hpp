@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/ecs/schedule.hpp"
@@ -12,6 +13,7 @@
 #include "engine/math/simd_level.hpp"
 #include "engine/parallel/worker_arena.hpp"
 #include "game/report.hpp"
+#include "modules/muscle/asset/surface/surface_description.hpp"
 #include "modules/muscle/components/muscle_detail.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 
@@ -22,6 +24,8 @@ struct SimulationOptions {
   int copies = 1;                        // how often the scene's characters are spawned, on a grid
   SimdLevel simd = detect_simd();
   bool collision = true;                 // of muscles with bones and each other
+  // Of all surface muscles that have a coarse hull; absent: as their levels of detail say.
+  std::optional<muscle::SurfaceSolver> surface_solver = std::nullopt;
   bool skin_meshes = true;               // off where nobody sees the skin
 };
 

@@ -40,7 +40,7 @@ struct OverlaySlider {
 };
 
 // A row of the item list. Values in the units that the model's headings state; one that is not a number is left out.
-inline constexpr std::size_t kOverlayValues = 8;
+inline constexpr std::size_t kOverlayValues = 9;
 struct OverlayItem {
   std::string_view name;
   float values[kOverlayValues] = {};

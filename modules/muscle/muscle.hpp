@@ -5,9 +5,13 @@
 // and of muscles that are meshes:
 //
 //   SurfaceMuscleDescription -> build_surface_asset -> spawn_surface_muscle -> systems each step -> DrawnSurface
+//     and, for those that a coarse hull may pose: build_progressive_hull -> build_hull_asset -> add_hull
 #pragma once
 
+#include "modules/muscle/add_hull.hpp"
 #include "modules/muscle/asset/build_muscle_asset.hpp"
+#include "modules/muscle/asset/hull/hull_asset.hpp"
+#include "modules/muscle/asset/hull/progressive_hull.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/asset/muscle_description.hpp"
 #include "modules/muscle/asset/muscle_levels.hpp"
@@ -21,6 +25,7 @@
 #include "modules/muscle/components/muscle_settings.hpp"
 #include "modules/muscle/components/muscle_surfaces.hpp"
 #include "modules/muscle/components/musculature.hpp"
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/components/tendons.hpp"
 #include "modules/muscle/muscle_systems.hpp"

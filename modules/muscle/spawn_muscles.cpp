@@ -25,9 +25,9 @@ namespace fascicle::muscle {
 namespace {
 
 // The systems whose time the ledger knows.
-constexpr std::array<std::string_view, 9> kTimedSystems = {
+constexpr std::array<std::string_view, 10> kTimedSystems = {
     "select_levels",   "drive_action_lines", "build_frames",          "find_tendons",         "solve_muscles",
-    "measure_muscles", "write_surfaces",     "solve_surface_muscles", "write_surface_muscles"};
+    "measure_muscles", "write_surfaces",     "solve_surface_muscles", "pose_surface_muscles", "write_surface_muscles"};
 
 // Room for pairs that touch: a muscle among its neighbours and bones.
 constexpr std::size_t kContactsPerMuscle = 8;

@@ -9,6 +9,7 @@
 #include "engine/math/state_hash.hpp"
 #include "modules/muscle/asset/muscle_asset.hpp"
 #include "modules/muscle/components/musculature.hpp"
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/join_neighbours.hpp"
 
@@ -76,9 +77,16 @@ void list_surface_costs(ecs::World& world, ecs::Entity muscle, std::string label
 
 std::uint64_t hash_surface_state(const ecs::World& world) {
   StateHash hash;
-  world.view<const SurfaceMuscle, const SurfaceState>().each([&](const SurfaceMuscle&, const SurfaceState& state) {
+  world.view<const SurfaceMuscle, const SurfaceState>().each([&](ecs::Entity entity, const SurfaceMuscle&,
+                                                                 const SurfaceState& state) {
     hash.add(std::span<const SurfacePoint>(state.points));
     hash.add(std::span<const SurfacePoint>(state.velocity));
+    const SurfaceHull* hull = world.try_get<const SurfaceHull>(entity);
+    if (hull == nullptr) return;
+    hash.add(hull->switches);
+    hash.add(hull->level);
+    hash.add(hull->blend_left);
+    if (hull->blend_left > 0.0f) hash.add(std::span<const SurfacePoint>(hull->difference));
   });
   return hash.value();
 }

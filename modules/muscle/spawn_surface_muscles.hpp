@@ -36,7 +36,8 @@ void despawn_surface_muscle(ecs::World& world, ecs::Entity muscle);
 // Lists it in the world's CostLedger, so that the systems' times appear for it when the ledger is on.
 void list_surface_costs(ecs::World& world, ecs::Entity muscle, std::string label);
 
-// A 64-bit hash of all surface muscles' points and velocities, in the order in which the world stores them.
+// A 64-bit hash of all surface muscles' points and velocities, and of how far changes of solver are blended, in the
+// order in which the world stores them.
 std::uint64_t hash_surface_state(const ecs::World& world);
 
 }  // namespace fascicle::muscle

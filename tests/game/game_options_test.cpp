@@ -22,6 +22,7 @@ TEST(GameOptions, WrongArgumentsLeaveWithTheUsageStatus) {
       {"--characters", "0"},
       {"--simd", "neon"},
       {"--level", "coarse"},
+      {"--surface-solver", "sparse"},
       {"--level", "-1"},
       {"--level", "1.5"},
       {"--scene"},
@@ -90,6 +91,12 @@ TEST(GameOptions, LevelsAreBySizeOrByNumber) {
   EXPECT_FALSE(parse({"--level", "auto"}).options.level.has_value());
   EXPECT_EQ(parse({"--level", "0"}).options.level, 0u);
   EXPECT_EQ(parse({"--level", "2"}).options.level, 2u);
+}
+
+TEST(GameOptions, ASurfaceSolverMayBeForced) {
+  EXPECT_FALSE(parse({}).options.surface_solver.has_value());
+  EXPECT_EQ(parse({"--surface-solver", "dynamic"}).options.surface_solver, muscle::SurfaceSolver::kDynamic);
+  EXPECT_EQ(parse({"--surface-solver", "coarse_hull"}).options.surface_solver, muscle::SurfaceSolver::kCoarseHull);
 }
 
 TEST(GameOptions, ScreenshotMayNameAFrame) {

@@ -1,140 +1,55 @@
 #include "modules/muscle/systems/4_solve/solve_surface_muscles.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstdint>
 #include <optional>
-
-#include <glm/common.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "engine/ecs/each_in_parallel.hpp"
 #include "engine/parallel/for_range.hpp"
-#include "modules/muscle/systems/4_solve/section_frame.hpp"
 #include "modules/muscle/systems/4_solve/touch_neighbours.hpp"
 
 namespace fascicle::muscle {
 namespace {
 
-// Of a matrix' entry (m, or 1): nearer to the identity than this it is the identity. Matrices that went through a
-// skeleton and back are not exactly what they were; a muscle at rest is to stay exactly there.
-constexpr double kRounding = 2.0e-6;
-
-glm::mat4 without_rounding(const glm::dmat4& m) {
-  for (int column = 0; column < 4; ++column) {
-    const glm::dvec4 difference = glm::abs(m[column] - glm::dmat4(1.0)[column]);
-    if (!glm::all(glm::lessThan(difference, glm::dvec4(kRounding)))) return glm::mat4(m);
-  }
-  return glm::mat4(1.0f);
-}
-
-bool has_bones(const SurfaceMuscle& muscle, const BoneMatrices* bones) {
-  return bones != nullptr && bones->world.size() >= muscle.rest_bones.size();
-}
-
-// Where bones are in the simulation's frame, which goes with the frame bone.
-void follow_bones(const SurfaceMuscle& muscle, const BoneMatrices& bones, SurfaceState& state) {
-  const auto frame_bone = static_cast<std::size_t>(muscle.asset->frame_bone);
-  const glm::dmat4 frame = glm::dmat4(bones.world[frame_bone]) * glm::inverse(glm::dmat4(muscle.rest_bones[frame_bone]));
-  const glm::dmat4 to_frame = glm::inverse(frame);
-  state.frame = glm::mat4(frame);
-  for (std::size_t b = 0; b < muscle.rest_bones.size(); ++b) {
-    if (b == frame_bone) continue;
-    state.bones[b] = without_rounding(to_frame * glm::dmat4(bones.world[b]) *
-                                      glm::inverse(glm::dmat4(muscle.rest_bones[b])));
-  }
-}
-
-void advance(RigidMotion& motion, const glm::mat4& to, bool jump) {
-  motion.from = jump ? to : motion.to;
-  motion.to = to;
-}
-
-void follow_carriers(const SurfaceMuscle& muscle,
-                     const ecs::View<const Musculature, const ActionLines, const CrossSections>& musculatures,
-                     bool jump, SurfaceState& state) {
-  const SurfaceAsset& asset = *muscle.asset;
-  for (std::size_t i = 0; i < asset.attachments.size(); ++i) {
-    advance(state.attachment_motion[i], state.bones[static_cast<std::size_t>(asset.attachments[i].bone)], jump);
-  }
-  for (std::size_t i = 0; i < asset.bones.size(); ++i) {
-    advance(state.bone_motion[i], state.bones[static_cast<std::size_t>(asset.bones[i])], jump);
-  }
-  const glm::dmat4 to_frame = glm::inverse(glm::dmat4(state.frame));
-  const Musculature* musculature = musculatures.try_get<const Musculature>(muscle.musculature);
-  for (std::size_t c = 0; c < asset.carriers.size(); ++c) {
-    const SurfaceCarrier& carrier = asset.carriers[c];
-    if (carrier.bone >= 0) {
-      advance(state.carrier_motion[c], state.bones[static_cast<std::size_t>(carrier.bone)], jump);
-      continue;
-    }
-    glm::mat4 to = state.carrier_motion[c].to;  // a driver that is gone leaves it where it was
-    if (musculature != nullptr && musculature->attached[muscle.driver] != 0) {
-      const MuscleAsset& driver = *musculature->asset;
-      const glm::mat4 now = section_frame(driver, *musculatures.try_get<const ActionLines>(muscle.musculature),
-                                          *musculatures.try_get<const CrossSections>(muscle.musculature),
-                                          muscle.driver, carrier.section);
-      to = without_rounding(to_frame * glm::dmat4(now) *
-                            glm::inverse(glm::dmat4(rest_section_frame(driver, muscle.driver, carrier.section))));
-    }
-    advance(state.carrier_motion[c], to, jump);
-  }
-}
-
-void report_contacts(const SurfaceMuscle& muscle, const SurfaceState& state, SurfaceContacts& contacts) {
-  contacts.now.clear();
-  for (std::size_t b = 0; b < muscle.asset->bones.size(); ++b) {
-    const BoneTouch& touch = state.scratch.touches[b];
-    if (touch.vertices == 0) continue;
-    const SurfacePoint& p = state.points[touch.deepest];
-    contacts.now.push_back({.bone = muscle.asset->bones[b], .vertices = touch.vertices, .depth = touch.depth,
-                            .place = glm::vec3(state.frame * glm::vec4(p.x, p.y, p.z, 1.0f))});
-  }
-}
-
 using Muscles = ecs::View<const SurfaceMuscle, SurfaceState, SurfaceContacts>;
 using Characters = ecs::View<const BoneMatrices, SurfaceNeighbours>;
-using Musculatures = ecs::View<const Musculature, const ActionLines, const CrossSections>;
+using Hulls = ecs::View<const SurfaceHull>;
 
 // One step of the system; all that its loops share.
 struct Solve {
   Muscles muscles;
   Characters characters;
-  Musculatures musculatures;
+  Drivers drivers;
+  Hulls hulls;
   const SurfaceKernels& kernels;
   float time = 0.0f;  // s
   SystemCosts costs;
 
   SurfaceStep step_of(const SurfaceMuscle& muscle, SurfaceState& state) const {
-    SurfaceStep step{.asset = muscle.asset.get(), .kernels = &kernels, .settings = muscle.settings, .step = time,
-                     .attachments = state.attachment_motion, .carriers = state.carrier_motion,
-                     .bones = state.bone_motion, .fields = state.fields, .rest_to_bone = state.rest_to_bone,
-                     .points = state.points, .velocity = state.velocity};
-    step.settings.substeps = std::max(step.settings.substeps, 1u);  // a game may have set anything
-    return step;
+    return make_surface_step(muscle, kernels, time, state);
+  }
+
+  // Posed by its hull in this step (pose_surface_muscles.hpp), so nothing here may move it.
+  bool is_posed(ecs::Entity entity) const {
+    const SurfaceHull* hull = hulls.try_get<const SurfaceHull>(entity);
+    return hull != nullptr && hull->solver == SurfaceSolver::kCoarseHull;
   }
 
   // Where everything has moved that the muscle depends on; whether it is then to be solved.
   bool prepare(const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
-    const BoneMatrices* bones = characters.try_get<const BoneMatrices>(muscle.character);
-    if (!has_bones(muscle, bones)) return false;
-    const bool jump = !state.started || state.teleport_count != bones->teleport_count;
-    state.teleport_count = bones->teleport_count;
-    state.started = true;
-    follow_bones(muscle, *bones, state);
-    follow_carriers(muscle, musculatures, jump, state);
-    if (jump || !state.enabled) state.volume = carry_rest_shape(step_of(muscle, state), state.scratch);
+    const Followed followed =
+        follow_bones(muscle, characters.try_get<const BoneMatrices>(muscle.character), drivers, state);
+    if (followed == Followed::kNothing) return false;
+    if (followed == Followed::kJump || !state.enabled) {
+      state.volume = carry_rest_shape(step_of(muscle, state), state.scratch);
+    }
     if (!state.enabled) contacts.now.clear();
     return state.enabled && time > 0.0f;
   }
 
   void finish(const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
-    if (!is_sound(*muscle.asset, state.points, state.volume)) {
-      state.volume = carry_rest_shape(step_of(muscle, state), state.scratch);
-      ++state.fallbacks;
-    }
-    report_contacts(muscle, state, contacts);
+    keep_sound(step_of(muscle, state), state);
+    report_touches(muscle, state, state.scratch.touches, contacts);
   }
 
   // Whether it takes its substeps together with others.
@@ -144,7 +59,7 @@ struct Solve {
   }
 
   void alone(ecs::Entity entity, const SurfaceMuscle& muscle, SurfaceState& state, SurfaceContacts& contacts) const {
-    if (has_neighbours(muscle)) return;
+    if (is_posed(entity) || has_neighbours(muscle)) return;
     const ScopedCost timer(costs.row(entity), ScopedCost::kWhole);
     if (!prepare(muscle, state, contacts)) return;
     state.volume = step_surface(step_of(muscle, state), state.scratch);
@@ -189,7 +104,7 @@ struct Solve {
       neighbours.solved[i] = 0;
       if (!muscles.contains(entity)) continue;
       const SurfaceMuscle& muscle = muscles.get<SurfaceMuscle>(entity);
-      if (!has_neighbours(muscle)) continue;
+      if (is_posed(entity) || !has_neighbours(muscle)) continue;
       if (!prepare(muscle, muscles.get<SurfaceState>(entity), muscles.get<SurfaceContacts>(entity))) continue;
       neighbours.solved[i] = 1;
       substeps = std::max(substeps, muscle.settings.substeps);
@@ -235,10 +150,10 @@ struct Solve {
 
 void solve_surface_muscles(ecs::View<const SurfaceMuscle, SurfaceState, SurfaceContacts> muscles,
                            ecs::View<const BoneMatrices, SurfaceNeighbours> characters,
-                           ecs::View<const Musculature, const ActionLines, const CrossSections> musculatures,
+                           Drivers drivers, ecs::View<const SurfaceHull> hulls,
                            ecs::Resource<const FrameTime> time, ecs::Resource<const MuscleSettings> settings,
                            ecs::Resource<const CostLedger> ledger) {
-  const Solve solve{muscles, characters, musculatures, surface_kernels(settings->simd), time->step,
+  const Solve solve{muscles, characters, drivers, hulls, surface_kernels(settings->simd), time->step,
                     ledger->system("solve_surface_muscles")};
   ecs::each_in_parallel(muscles, 1, [&](ecs::Entity entity, const SurfaceMuscle& muscle, SurfaceState& state,
                                         SurfaceContacts& contacts) { solve.alone(entity, muscle, state, contacts); });
