@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include "modules/muscle/content/load_parts.hpp"
 #include "modules/muscle/content/migrate.hpp"
 #include "modules/muscle/content/resolve_muscles.hpp"
+#include "modules/muscle/content/surface_hulls.hpp"
 
 namespace fascicle::muscle {
 
@@ -155,31 +157,48 @@ void check_muscles(std::span<const ResolvedMuscle> resolved, CharacterAsset& ass
   for (const Diagnostic& fault : built.errors) report.add({.errors = {fault}, .warnings = {}});
 }
 
-// The fits stored beside one character file. That they are broken is no error: muscles are fitted anew.
-FitStore load_fits(const fs::path& file, ContentSources& sources, Diagnostics& diagnostics) {
-  const fs::path store_file = fit_store_of(file);
+// What is stored beside a character file: `what`, as its author calls it. That it is broken is no error: it is made
+// anew.
+template <class Store>
+Store load_store(const fs::path& store_file, Result<Store> (*read)(const fs::path&), std::string_view what,
+                 const std::string& remedy, ContentSources& sources, Diagnostics& diagnostics) {
   sources.note(store_file);
   std::error_code error;
   if (!fs::exists(store_file, error)) return {};
-  Result<FitStore> store = fs::is_regular_file(store_file, error)  // a pipe could be read for ever
-                               ? read_fit_store(store_file)
-                               : Diagnostic{store_file.string(), 0, 0, {}, "this is no ordinary file", "remove it"};
+  Result<Store> store = fs::is_regular_file(store_file, error)  // a pipe could be read for ever
+                            ? read(store_file)
+                            : Diagnostic{store_file.string(), 0, 0, {}, "this is no ordinary file", "remove it"};
   if (store) return std::move(*store);
   Diagnostic warning = store.diagnostics().errors.front();
-  warning.cause = "the stored fits cannot be used: " + warning.cause;
-  warning.remedy = "muscles are fitted at load; run fascicle-cook fit " + file.string();
+  warning.cause = fmt::format("the stored {} cannot be used: {}", what, warning.cause);
+  warning.remedy = remedy;
   diagnostics.warnings.push_back(std::move(warning));
   return {};
 }
 
-// Those beside a file and beside the ones that its muscles come from: a muscle that nothing has changed about is
+// The fits beside a file and beside the ones that its muscles come from: a muscle that nothing has changed about is
 // fitted already. The nearest file's go first.
 FitStore load_fits(const MuscleChain& chain, const CharacterAsset& asset, ContentSources& sources,
                    Diagnostics& diagnostics) {
   FitStore store;
   if (asset.muscle_meshes.empty()) return store;
   for (std::size_t i = 0; i < chain.files().size(); ++i) {
-    store.merge(load_fits(chain.path(i), sources, diagnostics));
+    const fs::path& file = chain.path(i);
+    store.merge(load_store(fit_store_of(file), read_fit_store, "fits",
+                           "muscles are fitted at load; run fascicle-cook fit " + file.string(), sources, diagnostics));
+  }
+  return store;
+}
+
+// Likewise the hulls.
+HullStore load_hulls(const MuscleChain& chain, const CharacterAsset& asset, ContentSources& sources,
+                     Diagnostics& diagnostics) {
+  HullStore store;
+  if (std::ranges::none_of(asset.surface_descriptions, uses_hull)) return store;
+  for (std::size_t i = 0; i < chain.files().size(); ++i) {
+    const fs::path& file = chain.path(i);
+    store.merge(load_store(hull_store_of(file), read_hull_store, "hulls",
+                           "they are made at load; run fascicle-cook hull --store " + file.string(), sources, diagnostics));
   }
   return store;
 }
@@ -233,6 +252,11 @@ Result<std::shared_ptr<const CharacterAsset>> load_character(const fs::path& fil
   }
   asset->collision = std::move(collision.description);
   if (diagnostics.ok()) build_surface_muscles(*asset, diagnostics);
+  if (diagnostics.ok() && options.hulls != HullMode::kNone) {
+    HullStore store;
+    if (options.hulls == HullMode::kStored) store = load_hulls(chain, *asset, sources, diagnostics);
+    build_hulls(store, *asset, diagnostics);
+  }
   const bool has_muscles = asset->muscles || !asset->surface_muscles.empty();
   if (options.bone_fields && has_muscles) load_bone_fields(file, *asset, diagnostics);
   if (diagnostics.ok()) build_collision_levels(*asset);

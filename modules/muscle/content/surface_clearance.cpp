@@ -7,6 +7,7 @@
 #include "engine/animation/skeleton.hpp"
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/winding_number.hpp"
+#include "modules/muscle/asset/surface/check_surface.hpp"
 #include "modules/muscle/content/attachment_areas.hpp"
 
 namespace fascicle::muscle {
@@ -45,13 +46,11 @@ void check_swallowed(const SurfaceMuscleDescription& muscle, const CharacterAsse
   const std::vector<glm::vec3> points = movable(muscle);
   for (const std::int32_t bone : muscle.bones) {
     if (!holds_all(bone_mesh_at_rest(asset, bone), points)) continue;
-    Diagnostic fault = muscle.where;
-    fault.path += "/mesh";
-    fault.cause = fmt::format("the bone '{}' swallows the muscle '{}': at rest all {} vertices that are free to move are "
-                              "inside of it", asset.skeleton->names[static_cast<std::size_t>(bone)], muscle.name,
-                              points.size());
-    fault.remedy = "correct the unit or the place of one of the two meshes, or leave the bone out of \"bones\"";
-    diagnostics.errors.push_back(std::move(fault));
+    diagnostics.errors.push_back(fault_of(
+        muscle, "mesh",
+        fmt::format("the bone '{}' swallows it: at rest all {} vertices that are free to move are inside",
+                    asset.skeleton->names[static_cast<std::size_t>(bone)], points.size()),
+        "correct the unit or the place of one of the two meshes, or leave the bone out of \"bones\""));
     return;
   }
 }

@@ -1,0 +1,89 @@
+#include "modules/muscle/content/surface_hulls.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/parallel/for_range.hpp"
+#include "modules/muscle/asset/hull/hull_asset.hpp"
+#include "modules/muscle/asset/surface/check_surface.hpp"
+
+namespace fascicle::muscle {
+
+namespace {
+
+// A stored hull no longer tells how it came about; what its author should know of it is said at each load.
+Diagnostics judge(const SurfaceMuscleDescription& muscle, const ProgressiveHull& hull) {
+  Diagnostics found;
+  const HullSettings& asked = muscle.hull;
+  const std::size_t vertices = hull.mesh.positions.size();
+  if (vertices <= asked.vertices) return found;
+  const std::string which =
+      asked.error > 0.0f ? fmt::format("a hull no further than {:.4g} mm away", 1000.0f * asked.error) : "its hull";
+  found.warnings.push_back(
+      fault_of(muscle, "hull", fmt::format("{} needs {} vertices, more than the {} asked for", which, vertices, asked.vertices),
+               asked.error > 0.0f ? "ask for more \"vertices\", or give a larger \"error_mm\""
+                                  : fmt::format("ask for {} \"vertices\" or more", vertices)));
+  return found;
+}
+
+// The builder knows neither the muscle nor its file.
+void place_at(const SurfaceMuscleDescription& muscle, Diagnostics& found) {
+  const auto place = [&](Diagnostic& one) {
+    one = fault_of(muscle, "hull", std::move(one.cause), std::move(one.remedy));
+  };
+  std::ranges::for_each(found.errors, place);
+  std::ranges::for_each(found.warnings, place);
+}
+
+std::optional<ProgressiveHull> find_hull(const SurfaceMuscleDescription& muscle, const HullStore& store,
+                                         Diagnostics& diagnostics) {
+  const HullTarget target = hull_target(muscle);
+  const auto stored = store.find(muscle.name);
+  if (stored != store.end() && stored->second.inputs == hull_inputs(muscle.mesh, target)) {
+    diagnostics.append(judge(muscle, stored->second.hull));
+    return stored->second.hull;
+  }
+  auto built = build_progressive_hull(muscle.mesh, target);
+  place_at(muscle, built.diagnostics());
+  diagnostics.append({.errors = std::move(built.diagnostics().errors), .warnings = {}});
+  if (!built) return std::nullopt;
+  diagnostics.append(judge(muscle, *built));
+  return std::move(*built);
+}
+
+}  // namespace
+
+bool uses_hull(const SurfaceMuscleDescription& muscle) {
+  return std::ranges::any_of(muscle.levels,
+                             [](const SurfaceLevel& level) { return level.solver == SurfaceSolver::kCoarseHull; });
+}
+
+HullTarget hull_target(const SurfaceMuscleDescription& muscle) {
+  return {.vertices = muscle.hull.vertices, .error = muscle.hull.error};
+}
+
+void build_hulls(const HullStore& store, CharacterAsset& asset, Diagnostics& diagnostics) {
+  const std::size_t count = asset.surface_descriptions.size();
+  asset.hulls.assign(count, nullptr);
+  std::vector<Diagnostics> found(count);
+  parallel::for_range(count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SurfaceMuscleDescription& muscle = asset.surface_descriptions[i];
+      if (!asset.surface_muscles[i] || !uses_hull(muscle)) continue;
+      const std::optional<ProgressiveHull> hull = find_hull(muscle, store, found[i]);
+      if (!hull) continue;
+      auto built = build_hull_asset(*asset.surface_muscles[i], muscle, hull->mesh, asset.muscles.get());
+      if (built) asset.hulls[i] = *built;
+      found[i].append(std::move(built.diagnostics()));
+    }
+  });
+  for (Diagnostics& each : found) diagnostics.append(std::move(each));
+}
+
+}  // namespace fascicle::muscle
