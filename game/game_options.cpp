@@ -39,8 +39,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "skin, bones, muscles, action lines, sections, tendons and ground; F shows fibres, K contacts and tags. E adds a\n"
       "tag by two clicks (Enter saves, Backspace forgets a click, Y who yields, W sweeps, O both sides). Escape ends.");
   app.add_option("--scene", options.scene,
-                 "A name in content/scenes (walker, walker-surface, gait2392, cesium-man, box, hip-gluteus, hip-iliacus) "
-                 "or a scene file");
+                 "A name in content/scenes (walker, walker-surface, gait2392, cesium-man, box, hip-gluteus, hip-iliacus, "
+                 "hip-hull) or a scene file");
   app.add_flag("--headless", options.headless, "No window: run, then print the time per system");
   app.add_option("--frames", options.frames, "Steps to run (headless: the scene's own length by default)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000}));

@@ -72,7 +72,7 @@ TEST_F(FascicleProgram, ABrokenSceneIsExplainedWithItsPlace) {
 }
 
 TEST_F(FascicleProgram, MissingDataHasAStatusOfItsOwn) {
-  for (const char* scene : {"gait2392", "cesium-man", "box", "hip-gluteus", "hip-iliacus"}) {
+  for (const char* scene : {"gait2392", "cesium-man", "box", "hip-gluteus", "hip-iliacus", "hip-hull"}) {
     EXPECT_EQ(run(std::string("--headless --no-draw --scene ") + scene, "FASCICLE_DATA='" + file("absent") + "'"),
               kExitNoData);
     EXPECT_THAT(err(), HasSubstr("FASCICLE_DATA"));
