@@ -209,7 +209,7 @@ std::string fault_of(const TriangleMesh& mesh) {
     if (mesh.indices[sides[0]] == mesh.indices[sides[1]]) return "an edge runs the same way in both of its triangles";
   }
   const double volume = mesh_volume(mesh);
-  if (!std::isfinite(volume) || !(volume > 0.0)) return fmt::format("the mesh encloses {} m^3", volume);
+  if (!std::isfinite(volume) || !(volume > 0.0)) return fmt::format("the mesh encloses {:.6g} m^3", volume);
   return {};
 }
 
