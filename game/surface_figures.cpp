@@ -6,6 +6,7 @@
 
 #include "engine/animation/skeleton.hpp"
 #include "modules/muscle/asset/fibres/fibre_bundle.hpp"
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/kernels/surface/measure_quality.hpp"
 
@@ -37,6 +38,17 @@ void read_fibres(const muscle::FibreBundle& bundle, SurfaceFigures& figures) {
   if (!figures.fibre_ratios.empty()) {
     figures.fibre_ratio_mean = sum / static_cast<double>(figures.fibre_ratios.size());
   }
+}
+
+HullFigures read_hull(const muscle::SurfaceHull& hull) {
+  HullFigures figures;
+  figures.posed = hull.solver == muscle::SurfaceSolver::kCoarseHull;
+  figures.converged = hull.pose.converged;
+  figures.iterations = hull.pose.iterations;
+  const std::vector<float>& residuals = hull.scratch.residuals;
+  figures.residual = residuals.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                       : static_cast<double>(residuals.back());
+  return figures;
 }
 
 // The one further from 1.
@@ -95,12 +107,41 @@ const std::vector<SurfaceFigures>& SurfaceMeters::measure(Simulation& simulation
       figures.attachment_error = std::max(figures.attachment_error, error);
     }
     if (bundle != nullptr) read_fibres(*bundle, figures);
+    if (const auto* hull = world.try_get<muscle::SurfaceHull>(entity)) figures.hull = read_hull(*hull);
     figures_.push_back(std::move(figures));
   }
-  // Adding a component may have moved the others.
-  for (SurfaceFigures& figures : figures_) figures.quality = &world.get<muscle::SurfaceQuality>(figures.entity);
+  for (SurfaceFigures& figures : figures_) {
+    // Adding a component may have moved the others.
+    auto& quality = world.get<muscle::SurfaceQuality>(figures.entity);
+    if (figures.hull && figures.hull->posed) quality.angles.clear();
+    figures.quality = &quality;
+  }
   return figures_;
 }
+
+namespace {
+
+void record_hulls(const std::vector<SurfaceFigures>& figures, Report& report) {
+  bool any_hull = false, any_posed = false, converged = true;
+  double iterations = 0.0, residual = 0.0;
+  for (const SurfaceFigures& f : figures) {
+    any_hull |= f.hull.has_value();
+    if (!f.hull || !f.hull->posed) continue;
+    any_posed = true;
+    converged &= f.hull->converged;
+    iterations = std::max(iterations, static_cast<double>(f.hull->iterations));
+    if (!std::isnan(residual) && !(f.hull->residual <= residual)) residual = f.hull->residual;
+  }
+  if (!any_hull) return;
+  const auto record = [&](const char* name, double value) {
+    report.record(name, any_posed ? value : std::numeric_limits<double>::quiet_NaN());
+  };
+  record("surface.iterations", iterations);
+  record("surface.residual", residual);
+  record("surface.converged", converged ? 1.0 : 0.0);
+}
+
+}  // namespace
 
 void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& report) {
   if (figures.empty()) return;
@@ -136,6 +177,7 @@ void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& 
   if (any_fibres) report.record("surface.fibre_points_outside", outside);
   report.record("surface.turned_edges", turned);
   report.record("surface.fallbacks", fallbacks);
+  record_hulls(figures, report);
 }
 
 }  // namespace fascicle::game

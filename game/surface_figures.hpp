@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,14 @@ struct SurfaceQuality;
 
 namespace fascicle::game {
 
+// Of a muscle that may be posed by its coarse hull (4.5).
+struct HullFigures {
+  bool posed = false;                               // in this step; else the rest says nothing
+  bool converged = false;
+  std::uint32_t iterations = 0;
+  double residual = 0.0;                            // of the last of these; not a number: there was none
+};
+
 struct SurfaceFigures {
   ecs::Entity entity;
   std::shared_ptr<const muscle::SurfaceAsset> asset;
@@ -32,6 +41,7 @@ struct SurfaceFigures {
   double fibre_ratio_mean = 1.0;
   muscle::PointsOutside fibres_outside;             // the fibres' points that are not inside the muscle
   std::uint64_t fallbacks = 0;                      // so far
+  std::optional<HullFigures> hull;                  // none: the muscle has no hull
 };
 
 class SurfaceMeters {
@@ -40,7 +50,8 @@ class SurfaceMeters {
   // `measure` does.
   void start(Simulation& simulation);
 
-  // A muscle each, in the order of their spawning. Bones are prepared when a character is first seen.
+  // A muscle each, in the order of their spawning. Bones are prepared when a character is first seen. What is posed by
+  // its hull goes from rest straight to its pose: its angles are followed from rest anew in each step.
   const std::vector<SurfaceFigures>& measure(Simulation& simulation);
 
  private:
@@ -69,6 +80,9 @@ class SurfaceMeters {
 //   dihedral_change_mean_rad, bone_depth_max_mm (triangles at attached vertices and their neighbours left out),
 //   rest_distance_max_mm, attachment_error_max_mm, fibre_length_ratio_mean (null without fibres), fibre_points_outside
 //   (where there are fibres), turned_edges (triangles that have swung through their neighbours) and fallbacks.
+// Where a muscle may be posed by its coarse hull, of those that were in this step (null: none was):
+//   surface.iterations, residual (of the last iteration: how far it moved a hull vertex, as a part of the muscle's size)
+//   and converged (1, or 0 where one did not).
 void record_surface_figures(const std::vector<SurfaceFigures>& figures, Report& report);
 
 }  // namespace fascicle::game

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/fascicle_cook/surface_poses.hpp"
+
 namespace fascicle::cook {
 namespace {
 
@@ -60,6 +62,15 @@ class Checker {
     checks_.push_back(std::move(check));
   }
 
+  // Of the whole run; `reached`: there was something to look at.
+  void in_all(const std::string& what, double limit, double found, std::uint64_t step, bool reached) {
+    SurfaceCheck check = make(what, limit, "");
+    check.found = found;
+    check.step = step;
+    check.reached = reached;
+    decide(std::move(check), limit, run_.steps.size());
+  }
+
   std::vector<SurfaceCheck> finish() { return std::move(checks_); }
 
  private:
@@ -86,19 +97,56 @@ class Checker {
   std::vector<SurfaceCheck> checks_;
 };
 
-void check_fibres(Checker& checker, const SurfaceMuscleRun& run) {
+void check_fibres_inside(Checker& checker, const SurfaceMuscleRun& run) {
   if (run.fibre_rest.empty()) return;
   checker.at_every_step("points of fibres outside of the muscle", 0.0, "", [](const auto& s) {
     return s.fibres_outside;
   });
+}
+
+void check_fibres(Checker& checker, const SurfaceMuscleRun& run) {
+  check_fibres_inside(checker, run);
+  if (run.fibre_rest.empty()) return;
   checker.at_step(kRested, "worst fibre |length ratio - 1|", 0.005, "", [](const SurfaceStepFigures& s) {
     return std::max(off_one(s.fibre_min), off_one(s.fibre_max));
   });
 }
 
+bool any_posed(const SurfaceMuscleRun& run) {
+  return std::any_of(run.steps.begin(), run.steps.end(), [](const auto& s) { return s.posed != 0.0; });
+}
+
+// Steps that the hull did not make pass.
+void check_posed(Checker& checker, const SurfaceMuscleRun& run, const SurfaceMuscleRun* smooth) {
+  checker.at_every_step("|volume ratio - 1| of a pose", 0.001, "", [](const SurfaceStepFigures& s) {
+    return s.posed != 0.0 ? off_one(s.volume_ratio) : 0.0;
+  });
+  checker.at_every_step("iterations of a pose", kMostIterations, "", [](const auto& s) { return s.iterations; });
+  checker.at_every_step("poses that did not converge (1)", 0.0, "", [](const auto& s) { return 1.0 - s.converged; });
+  const Repeats iterated = compare_iterated(run);
+  checker.in_all(fmt::format("{} poses iterated further: shapes apart, of the size", iterated.count), kIteratedTolerance,
+                 iterated.largest, iterated.step, iterated.count > 0);
+  const Repeats repeats = compare_repeats(run);
+  checker.in_all(fmt::format("{} poses taken again: shapes apart, of the size", repeats.count), kRepeatTolerance,
+                 repeats.largest, repeats.step, repeats.count > 0);
+  if (smooth == nullptr) return;
+  const std::vector<PosePair> pairs = pair_poses(run, *smooth);
+  double worst = 0.0;
+  std::uint64_t step = 0;
+  for (const PosePair& pair : pairs) {
+    const double ratio = bend_ratio(run, *smooth, pair);
+    if (std::isnan(worst) || (step != 0 && ratio <= worst)) continue;
+    worst = ratio;
+    step = pair.step;
+  }
+  checker.in_all(fmt::format("{} poses beside dynamics': mean dihedral change to theirs", pairs.size()), kMostBend, worst,
+                 step, !pairs.empty());
+}
+
 }  // namespace
 
-std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceMuscleRun& run) {
+std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceMuscleRun& run,
+                                        const SurfaceMuscleRun* smooth) {
   const auto is = [&](const char* name) { return scene.find(name) != std::string::npos; };
   const auto mean = [](const SurfaceStepFigures& s) { return s.edge_abs_mean; };
   const auto most = [](const SurfaceStepFigures& s) { return s.edge_max; };
@@ -121,6 +169,11 @@ std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceM
     return checker.finish();
   }
   checker.at_every_step("|volume ratio - 1|", 0.005, "", volume);
+  if (any_posed(run)) {
+    check_posed(checker, run, smooth);
+    check_fibres_inside(checker, run);
+    return checker.finish();
+  }
   if (is("gluteus")) {
     checker.attached_vertices(269);
     checker.at_step(kFlexed, "largest edge ratio", 3.0, "", most);

@@ -1,5 +1,5 @@
-// What is asked of the surface muscles of the scenes that the method's authors published (4.3): limits on the figures
-// of a run, each with what was found.
+// What is asked of the surface muscles of the scenes that the method's authors published (4.3), and of any that are
+// posed by their coarse hulls (4.5): limits on the figures of a run, each with what was found.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,17 @@ struct SurfaceCheck {
   std::string why;           // where it fails although it is within its limit
 };
 
+// Of muscles that their hulls pose.
+inline constexpr double kMostIterations = 10.0;
+inline constexpr double kRepeatTolerance = 1.0e-5;  // of the muscle's size
+inline constexpr double kIteratedTolerance = 1.0e-3;  // likewise: what more iterations would change
+inline constexpr double kMostBend = 1.2;            // times position based dynamics' mean dihedral change
+
 // The checks of the scene, by its name: those of `box`, of `gluteus` and of `iliacus` are the published scenes'. Any
-// other scene is only asked for volume, attachments and depth.
-std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceMuscleRun& run);
+// other scene is only asked for volume, attachments and depth. A muscle that its hull posed in some step is asked what
+// the coarse hull must do, whatever the scene. `smooth`: the same muscle by dynamics, to compare with (pair_poses).
+std::vector<SurfaceCheck> check_surface(const std::string& scene, const SurfaceMuscleRun& run,
+                                        const SurfaceMuscleRun* smooth = nullptr);
 
 bool all_passed(const std::vector<SurfaceCheck>& checks);
 

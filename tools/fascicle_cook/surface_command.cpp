@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -7,14 +8,18 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "engine/animation/motion.hpp"
 #include "engine/content/file_text.hpp"
 #include "modules/muscle/content/find_content.hpp"
 #include "tools/fascicle_cook/commands.hpp"
 #include "tools/fascicle_cook/find_character.hpp"
+#include "tools/fascicle_cook/surface_beside.hpp"
 #include "tools/fascicle_cook/surface_checks.hpp"
 #include "tools/fascicle_cook/surface_plots.hpp"
+#include "tools/fascicle_cook/surface_pose_report.hpp"
 #include "tools/fascicle_cook/surface_report.hpp"
 #include "tools/fascicle_cook/surface_run.hpp"
+#include "tools/fascicle_cook/surface_switches.hpp"
 
 namespace fascicle::cook {
 namespace {
@@ -22,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string scene, csv, plots, solver = "on";
+  std::string scene, csv, plots, beside, solver = "on";
   std::vector<std::string> without;
   std::uint64_t frames = 0;
   int threads = 1;
@@ -31,13 +36,16 @@ struct Options {
 
 SurfaceRunOptions run_options(const Options& options) {
   SurfaceRunOptions run{.frames = options.frames, .workers = options.threads};
-  if (options.solver == "off") run.solver = SurfaceSolver::kOff;
-  if (options.solver == "frozen") run.solver = SurfaceSolver::kFrozen;
+  if (options.solver == "off") run.solver = SolverSwitch::kOff;
+  if (options.solver == "frozen") run.solver = SolverSwitch::kFrozen;
+  if (options.solver == "dynamic") run.forced = muscle::SurfaceSolver::kDynamic;
+  if (options.solver == "coarse_hull") run.forced = muscle::SurfaceSolver::kCoarseHull;
   for (const std::string& part : options.without) {
     if (part == "edges") run.edges = false;
     if (part == "angles") run.angles = false;
     if (part == "volume") run.volume = false;
     if (part == "bones") run.bones = false;
+    if (part == "direction") run.direction = false;
   }
   return run;
 }
@@ -46,6 +54,17 @@ bool write(const fs::path& file, const std::string& text) {
   const Diagnostics written = write_text_atomically(file, text);
   print_diagnostics(written);
   return written.ok();
+}
+
+// The steps' figures, and, where muscles were posed by their hulls, iterations in a second file beside it.
+bool write_tables(const SurfaceRun& run, const fs::path& file) {
+  bool written = write(file, surface_csv(run));
+  const bool any_hull = std::any_of(run.muscles.begin(), run.muscles.end(),
+                                    [](const SurfaceMuscleRun& muscle) { return muscle.hull_vertices > 0; });
+  if (!any_hull) return written;
+  fs::path iterations = file;
+  iterations.replace_filename(file.stem().string() + "-residuals.csv");
+  return write(iterations, surface_residual_csv(run)) && written;
 }
 
 bool write_plots(const SurfaceRun& run, const fs::path& folder) {
@@ -68,17 +87,46 @@ void print_halved(const std::shared_ptr<const muscle::SceneAsset>& scene, const 
   const SurfaceRun halved = run_surfaces(scene, options);
   for (std::size_t m = 0; m < run.muscles.size(); ++m) {
     if (run.muscles[m].flexed.empty()) continue;
-    const ShapeDifference d = compare_flexed(run.muscles[m], halved.muscles[m]);
+    const ShapeDifference d = compare_shapes(*run.muscles[m].asset, run.muscles[m].flexed,
+                                             halved.muscles[m].flexed);
     fmt::print("{}: with half the substep vertices are at step {} at most {:.3f} % of the muscle's size elsewhere "
                "({:.3f} % in the mean)\n",
                run.muscles[m].asset->name, kFlexedStep, 100.0 * d.largest, 100.0 * d.mean);
   }
 }
 
+// The same muscles by dynamics, through the motion that was asked for; nothing where none was.
+Result<SurfaceRun> run_beside(const muscle::SceneAsset& scene, const Options& options) {
+  if (options.beside.empty()) return SurfaceRun{};
+  const auto beside = scene_beside(scene, options.beside);
+  if (!beside) return beside.diagnostics();
+  SurfaceRunOptions run{.workers = options.threads, .keep_poses = true};
+  run.forced = muscle::SurfaceSolver::kDynamic;
+  const Motion& motion = *(*beside)->characters.front().animation.motion;
+  run.frames = static_cast<std::uint64_t>(motion.cycle.length() * static_cast<double>(scene.step_hz)) + 1;
+  return run_surfaces(*beside, run);
+}
+
+// Figures and checks of one muscle; whether all have passed.
+bool print_muscle(const SurfaceRun& run, const SurfaceMuscleRun& muscle, const SurfaceMuscleRun* smooth) {
+  const std::vector<SurfaceCheck> checks = check_surface(run.scene, muscle, smooth);
+  fmt::print("{}\n{}\n", surface_configuration(run, muscle), surface_table(muscle));
+  const std::string poses = surface_pose_table(muscle, smooth);
+  if (!poses.empty()) fmt::print("{}\n{}\n", poses, surface_residual_table(muscle));
+  fmt::print("{}\n", surface_checks_table(checks));
+  return all_passed(checks);
+}
+
 int surface(const Options& options) {
-  const auto scene = muscle::load_scene(muscle::find_scene(options.scene, muscle::find_content_folder()));
+  const auto loaded = muscle::load_scene(muscle::find_scene(options.scene, muscle::find_content_folder()));
+  print_diagnostics(loaded.diagnostics());
+  if (!loaded) return kErrors;
+  const auto scene = without_parts(*loaded, run_options(options));
   print_diagnostics(scene.diagnostics());
   if (!scene) return kErrors;
+  const auto beside = run_beside(**scene, options);
+  print_diagnostics(beside.diagnostics());
+  if (!beside) return kErrors;
   const SurfaceRun run = run_surfaces(*scene, run_options(options));
   if (run.muscles.empty()) {
     print_diagnostics({.errors = {{options.scene, 0, 0, {}, "no character of the scene has a surface muscle",
@@ -87,14 +135,13 @@ int surface(const Options& options) {
     return kErrors;
   }
   bool passed = true;
-  for (const SurfaceMuscleRun& muscle : run.muscles) {
-    const std::vector<SurfaceCheck> checks = check_surface(run.scene, muscle);
-    passed &= all_passed(checks);
-    fmt::print("{}\n{}\n{}\n", surface_configuration(run, muscle), surface_table(muscle), surface_checks_table(checks));
+  for (std::size_t m = 0; m < run.muscles.size(); ++m) {
+    const SurfaceMuscleRun* smooth = m < beside->muscles.size() ? &beside->muscles[m] : nullptr;
+    passed &= print_muscle(run, run.muscles[m], smooth);
   }
   if (options.halve) print_halved(*scene, run);
   bool written = true;
-  if (!options.csv.empty()) written &= write(options.csv, surface_csv(run));
+  if (!options.csv.empty()) written &= write_tables(run, options.csv);
   if (!options.plots.empty()) written &= write_plots(run, options.plots);
   return passed && written ? kFine : kErrors;
 }
@@ -107,14 +154,19 @@ void add_surface(CLI::App& program, Command& chosen) {
       "surface", "Play a scene and measure its surface muscles: volume, edges, angles, fibres, depth in bones");
   command->add_option("SCENE", options->scene, "A scene's name or file")->required();
   command->add_option("--frames", options->frames, "Steps (the scene's)")->check(CLI::Range(1, 1000000));
-  command->add_option("--csv", options->csv, "Write the figures of every step to this file");
+  command->add_option("--csv", options->csv, "Write the figures of every step to this file; those of the coarse hull's\n"
+                  "iterations to NAME-residuals.csv beside it");
   command->add_option("--plots", options->plots, "Write plots over the steps as SVG to this folder");
   command->add_option("--solver", options->solver,
-                      "off: muscles are only carried by their bones; frozen: they stay as they are at rest")
-      ->check(CLI::IsMember({"on", "off", "frozen"}));
-  command->add_option("--without", options->without, "Switch parts of the solver off: edges, angles, volume, bones")
+                      "off: muscles are only carried by their bones; frozen: they stay as they are at rest;\n"
+                      "dynamic, coarse_hull: of muscles that can have both, this one")
+      ->check(CLI::IsMember({"on", "off", "frozen", "dynamic", "coarse_hull"}));
+  command->add_option("--without", options->without, "Switch parts of the solver off: edges, angles, volume, bones, direction")
       ->delimiter(',')
-      ->check(CLI::IsMember({"edges", "angles", "volume", "bones"}));
+      ->check(CLI::IsMember({"edges", "angles", "volume", "bones", "direction"}));
+  command->add_option("--beside", options->beside,
+                      "Compare poses with dynamics, played through this motion (hip-flexion, or a file): on the way to\n"
+                      "its largest angle, which they reach smoothly");
   command->add_flag("--halve", options->halve, "Compare the shape at step 100 with that of half the substep");
   command->add_option("--threads", options->threads, "Workers (1; 0: one for each core)")->check(CLI::Range(0, 256));
   command->footer("Exit status 1, too, where a check fails.");

@@ -1,9 +1,11 @@
 #include "tools/fascicle_cook/surface_plots.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
+#include "tools/fascicle_cook/surface_poses.hpp"
 #include "tools/fascicle_cook/svg_plot.hpp"
 
 namespace fascicle::cook {
@@ -41,6 +43,34 @@ Chart fibre_chart(const SurfaceMuscleRun& muscle) {
   return chart;
 }
 
+constexpr std::size_t kResidualPoses = 6;  // from the least angle to the largest
+
+// Of the hull, and below of the full mesh where there are any.
+std::vector<Chart> residual_charts(const SurfaceMuscleRun& muscle) {
+  Chart hull{.y_label = "hull: largest move / size", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
+  Chart full{.y_label = "mesh: largest move / size", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
+  const std::vector<std::vector<std::uint64_t>> poses = posed_steps(muscle);
+  const std::size_t shown = std::min(kResidualPoses, poses.size());
+  std::size_t longest = 0;
+  bool any_full = false;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t at = shown == 1 ? 0 : i * (poses.size() - 1) / (shown - 1);
+    const SurfacePose& pose = muscle.poses[poses[at].front() - 1];
+    const std::string name = fmt::format("{:.2f} rad", pose_angle(*muscle.asset, pose));
+    const auto line = [&](const std::vector<float>& residuals) {
+      return ChartLine{name, fibre_colour(i), 1.8, {residuals.begin(), residuals.end()}};
+    };
+    hull.lines.push_back(line(pose.residuals));
+    full.lines.push_back(line(pose.refined));
+    longest = std::max(longest, pose.residuals.size());
+    any_full |= !pose.refined.empty();
+  }
+  hull.lines.push_back({"tolerance", kGrey, 1.0,
+                        std::vector<double>(std::max<std::size_t>(longest, 2), static_cast<double>(muscle.hull.tolerance))});
+  if (!any_full) return {hull};
+  return {hull, full};
+}
+
 }  // namespace
 
 std::vector<SurfacePlot> surface_plots(const SurfaceRun& run, const SurfaceMuscleRun& muscle) {
@@ -49,7 +79,7 @@ std::vector<SurfacePlot> surface_plots(const SurfaceRun& run, const SurfaceMuscl
   const std::string subtitle =
       fmt::format("{}; {} substeps of 1/{:g} s{}", run.scene, s.substeps,
                   static_cast<double>(run.step_hz) * s.substeps,
-                  run.options.solver == SurfaceSolver::kOn ? "" : "; solver off");
+                  run.options.solver == SolverSwitch::kOn ? "" : "; solver off");
   std::vector<SurfacePlot> plots;
   const auto add = [&](const char* what, const std::string& title, const std::vector<Chart>& charts) {
     plots.push_back({what, draw_charts(muscle.asset->name + ": " + title, subtitle, charts)});
@@ -79,6 +109,12 @@ std::vector<SurfacePlot> surface_plots(const SurfaceRun& run, const SurfaceMuscl
         .band = {}, .least_range = 0.1}});
   if (!muscle.fibre_ratios.empty()) {
     add("fibres", fmt::format("{} fibres", muscle.fibre_ratios.size()), {fibre_chart(muscle)});
+  }
+  if (!posed_steps(muscle).empty()) {
+    plots.push_back({"residuals", draw_charts(muscle.asset->name + ": how far iterations move it",
+                                              fmt::format("{}; coarse hull of {} vertices", run.scene,
+                                                          muscle.hull_vertices),
+                                              residual_charts(muscle), "iteration")});
   }
   return plots;
 }

@@ -51,11 +51,23 @@ constexpr std::array kFibreFigures = {
     Figure{"fibre_outside_max_mm", "  furthest of them (mm)", &SurfaceStepFigures::fibre_furthest, 0.0},
 };
 
+// Of muscles with a coarse hull, last.
+constexpr std::array kHullFigures = {
+    Figure{"posed_by_hull", "posed by its hull (1)", &SurfaceStepFigures::posed, 1.0},
+    Figure{"hull_iterations", "iterations", &SurfaceStepFigures::iterations, 0.0},
+    Figure{"hull_converged", "converged (1)", &SurfaceStepFigures::converged, 1.0},
+    Figure{"hull_residual", "last iteration's move, of the size", &SurfaceStepFigures::residual, 0.0},
+    Figure{"pose_ms", "time of posing all muscles (ms)", &SurfaceStepFigures::pose_ms, 0.0},
+};
+
 template <class F>
-void each_figure(bool fibres, F&& f) {
+void each_figure(bool fibres, bool hull, F&& f) {
   for (const Figure& figure : kFigures) f(figure);
   for (const Figure& figure : kFibreFigures) {
     if (fibres) f(figure);
+  }
+  for (const Figure& figure : kHullFigures) {
+    if (hull) f(figure);
   }
 }
 
@@ -96,24 +108,28 @@ std::string surface_configuration(const SurfaceRun& run, const SurfaceMuscleRun&
   text += fmt::format("  {} steps of 1/{:g} s, {}\n", run.options.frames, run.step_hz, to_text(muscle.settings));
   text += fmt::format("  {} bones to collide with, {} fibres; simd {}, {} worker{}\n", asset.bones.size(),
                       muscle.fibre_rest.size(), run.simd, run.options.workers, run.options.workers == 1 ? "" : "s");
+  if (muscle.hull_vertices > 0) {
+    text += fmt::format("  coarse hull: {} vertices; at most {} iterations until one moves less than {:g} of the size\n",
+                        muscle.hull_vertices, muscle.hull.iterations, muscle.hull.tolerance);
+  }
   const SurfaceRunOptions& o = run.options;
-  if (o.solver != SurfaceSolver::kOn) {
-    text += o.solver == SurfaceSolver::kOff ? "  SOLVER OFF: carried by its bones only\n"
+  if (o.solver != SolverSwitch::kOn) {
+    text += o.solver == SolverSwitch::kOff ? "  SOLVER OFF: carried by its bones only\n"
                                             : "  FROZEN: it stays as it is at rest\n";
-  } else if (!o.edges || !o.angles || !o.volume || !o.bones) {
-    text += fmt::format("  WITHOUT:{}{}{}{}\n", o.edges ? "" : " edges", o.angles ? "" : " angles",
-                        o.volume ? "" : " volume", o.bones ? "" : " bones");
+  } else if (!o.edges || !o.angles || !o.volume || !o.bones || !o.direction) {
+    text += fmt::format("  WITHOUT:{}{}{}{}{}\n", o.edges ? "" : " edges", o.angles ? "" : " angles",
+                        o.volume ? "" : " volume", o.bones ? "" : " bones", o.direction ? "" : " direction");
   }
   return text;
 }
 
 std::string surface_table(const SurfaceMuscleRun& muscle) {
   const std::vector<std::uint64_t> shown = table_steps(muscle.steps.size());
-  std::string text = fmt::format("{:<32}", "step");
+  std::string text = fmt::format("{:<34}", "step");
   for (const std::uint64_t step : shown) text += fmt::format("{:>10}", step);
   text += fmt::format("{:>11}  at step\n", "worst");
-  each_figure(!muscle.fibre_rest.empty(), [&](const Figure& figure) {
-    text += fmt::format("{:<32}", figure.row);
+  each_figure(!muscle.fibre_rest.empty(), muscle.hull_vertices > 0, [&](const Figure& figure) {
+    text += fmt::format("{:<34}", figure.row);
     for (const std::uint64_t step : shown) text += fmt::format("{:>10.4f}", muscle.steps[step - 1].*figure.value);
     if (!muscle.steps.empty()) {
       const std::size_t worst = worst_step(muscle.steps, figure);
@@ -139,12 +155,12 @@ std::string surface_checks_table(const std::vector<SurfaceCheck>& checks) {
 
 std::string surface_csv(const SurfaceRun& run) {
   std::string text = "muscle,step";
-  each_figure(true, [&](const Figure& figure) { text += fmt::format(",{}", figure.column); });
+  each_figure(true, true, [&](const Figure& figure) { text += fmt::format(",{}", figure.column); });
   text += '\n';
   for (const SurfaceMuscleRun& muscle : run.muscles) {
     for (std::size_t i = 0; i < muscle.steps.size(); ++i) {
       text += fmt::format("{},{}", muscle.asset->name, i + 1);
-      each_figure(true, [&](const Figure& figure) { text += fmt::format(",{:.9g}", muscle.steps[i].*figure.value); });
+      each_figure(true, true, [&](const Figure& figure) { text += fmt::format(",{:.9g}", muscle.steps[i].*figure.value); });
       text += '\n';
     }
   }

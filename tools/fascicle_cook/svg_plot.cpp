@@ -40,6 +40,21 @@ struct Range {
   }
 };
 
+// Where a value of a logarithmic chart stands: not finite where it has no place.
+std::vector<double> powers_of(std::vector<double> values) {
+  for (double& value : values) value = value > 0.0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
+Chart with_powers(Chart chart) {
+  for (ChartLine& line : chart.lines) line.values = powers_of(std::move(line.values));
+  if (chart.band) {
+    chart.band->lower = powers_of(std::move(chart.band->lower));
+    chart.band->upper = powers_of(std::move(chart.band->upper));
+  }
+  return chart;
+}
+
 // All of the chart's values with a little room.
 Range range_of(const Chart& chart) {
   Range range;
@@ -175,25 +190,30 @@ void draw_frame(Svg& svg, const Panel& panel, double step_x, double step_y, cons
   steps(panel.y0, panel.y1, step_y, [&](double value) {
     svg.line(panel.left, panel.y(value), right, panel.y(value), kGrid);
     svg.line(panel.left - 5, panel.y(value), panel.left, panel.y(value), kAxisStyle);
-    svg.text(panel.left - 9, panel.y(value) + 4.5, 13, "end", fmt::format("{:.{}f}", value + 0.0, decimals_of(step_y)));
+    const std::string label = panel.logarithmic ? fmt::format("1e{:.0f}", value + 0.0)
+                                                : fmt::format("{:.{}f}", value + 0.0, decimals_of(step_y));
+    svg.text(panel.left - 9, panel.y(value) + 4.5, 13, "end", label);
   });
   svg.box(panel.left, panel.top, panel.width, panel.height, "fill=\"none\" stroke=\"#444444\" stroke-width=\"1.2\"");
   svg.text(panel.left + 0.5 * panel.width, bottom + 45, 15, "middle", x_label);
   svg.turned_text(panel.left - 66, panel.top + 0.5 * panel.height, 15, y_label);
 }
 
-std::string draw_charts(const std::string& title, const std::string& subtitle, std::span<const Chart> charts) {
+std::string draw_charts(const std::string& title, const std::string& subtitle, std::span<const Chart> charts,
+                        const char* x_label) {
   constexpr double kWidth = 820, kHeight = 300, kTop = 120, kBelow = 100;
   Svg svg(kWidth + 150, kTop + static_cast<double>(charts.size()) * (kHeight + kBelow) - 25);
   svg.text(40, 42, 21, "start", title, "#111111", " font-weight=\"bold\"");
   svg.text(40, 68, 14, "start", subtitle, "#444444");
   const auto steps = static_cast<double>(steps_of(charts));
   double top = kTop;
-  for (const Chart& chart : charts) {
+  for (const Chart& given : charts) {
+    const Chart chart = given.logarithmic ? with_powers(given) : given;
     const Range range = range_of(chart);
-    const Panel panel{110, top, kWidth, kHeight, 0.0, steps, range.least, range.most};
-    draw_frame(svg, panel, std::max(tick_step(steps, 12.0), 1.0), tick_step(range.most - range.least, 7.0), "step",
-               chart.y_label.c_str());
+    const Panel panel{110, top, kWidth, kHeight, 0.0, steps, range.least, range.most, chart.logarithmic};
+    const double step_y = tick_step(range.most - range.least, 7.0);
+    draw_frame(svg, panel, std::max(tick_step(steps, 12.0), 1.0), chart.logarithmic ? std::max(step_y, 1.0) : step_y,
+               x_label, chart.y_label.c_str());
     if (chart.band) draw_band(svg, panel, *chart.band);
     for (const ChartLine& line : chart.lines) draw_line(svg, panel, line);
     draw_legend(svg, panel.left, top - 18, chart);

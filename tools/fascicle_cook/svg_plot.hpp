@@ -34,6 +34,7 @@ inline constexpr const char* kAxisStyle = "stroke=\"#444444\" stroke-width=\"1.2
 struct Panel {
   double left, top, width, height;
   double x0, x1, y0, y1;
+  bool logarithmic = false;  // y0 and y1 are powers of ten, and so are the ticks' labels
 
   double x(double value) const { return left + (value - x0) / (x1 - x0) * width; }
   double y(double value) const { return top + height - (value - y0) / (y1 - y0) * height; }
@@ -62,10 +63,12 @@ struct Chart {
   std::string y_label;
   std::vector<ChartLine> lines;
   std::optional<ChartBand> band;
-  double least_range = 0.0;  // the y axis spans no less
+  double least_range = 0.0;  // the y axis spans no less; of a logarithmic one, in powers of ten
+  bool logarithmic = false;  // values that are not positive leave a gap, too
 };
 
 // Charts over the same steps, one below the other.
-std::string draw_charts(const std::string& title, const std::string& subtitle, std::span<const Chart> charts);
+std::string draw_charts(const std::string& title, const std::string& subtitle, std::span<const Chart> charts,
+                        const char* x_label = "step");
 
 }  // namespace fascicle::cook

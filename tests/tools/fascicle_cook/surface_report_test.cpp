@@ -151,19 +151,18 @@ TEST(CheckSurface, AVoidRunPassesNothingFromThenOn) {
   }
 }
 
-TEST(CompareFlexed, IsAPartOfTheMusclesSize) {
-  SurfaceMuscleRun one = faultless(0), other = faultless(0);
-  EXPECT_EQ(compare_flexed(one, other).largest, 0.0);
-  auto asset = std::make_shared<muscle::SurfaceAsset>(*one.asset);
-  asset->size = 0.2f;
-  one.asset = asset;
-  one.flexed = {{0, 0, 0}, {0.1f, 0, 0}};
-  other.flexed = {{0, 0.001f, 0}, {0.1f, 0, 0.003f}};
-  EXPECT_NEAR(compare_flexed(one, other).largest, 0.015, 1e-7);
-  EXPECT_NEAR(compare_flexed(one, other).mean, 0.01, 1e-7);
-  asset->attached.clear();
-  other.flexed = {{0, 0.001f, 0}, {0.1f, 0.001f, 0}};
-  EXPECT_NEAR(compare_flexed(one, other).largest, 0.0, 1e-7);
+TEST(CompareShapes, IsAPartOfTheMusclesSize) {
+  muscle::SurfaceAsset asset = *faultless(0).asset;
+  asset.size = 0.2f;
+  const std::vector<glm::vec3> one = {{0, 0, 0}, {0.1f, 0, 0}};
+  EXPECT_EQ(compare_shapes(asset, one, one).largest, 0.0);
+  EXPECT_NEAR(compare_shapes(asset, one, {{0, 0.001f, 0}, {0.1f, 0, 0.003f}}).largest, 0.015, 1e-7);
+  EXPECT_NEAR(compare_shapes(asset, one, {{0, 0.001f, 0}, {0.1f, 0, 0.003f}}).mean, 0.01, 1e-7);
+  // What cannot be compared is no small difference.
+  EXPECT_TRUE(std::isnan(compare_shapes(asset, one, {}).largest));
+  EXPECT_TRUE(std::isnan(compare_shapes(asset, one, {{static_cast<float>(kNaN), 0, 0}, {0.1f, 0, 0}}).largest));
+  asset.attached.clear();
+  EXPECT_NEAR(compare_shapes(asset, one, {{0, 0.001f, 0}, {0.1f, 0.001f, 0}}).largest, 0.0, 1e-7);
 }
 
 TEST(SurfaceTable, ShowsTheStepsAndTheWorst) {
@@ -190,7 +189,7 @@ TEST(SurfaceConfiguration, SaysWhatIsSwitchedOff) {
   EXPECT_THAT(surface_configuration(run, run.muscles[0]), testing::Not(HasSubstr("OFF: ")));
   run.options.volume = false;
   EXPECT_THAT(surface_configuration(run, run.muscles[0]), HasSubstr("WITHOUT: volume\n"));
-  run.options.solver = SurfaceSolver::kOff;
+  run.options.solver = SolverSwitch::kOff;
   EXPECT_THAT(surface_configuration(run, run.muscles[0]), HasSubstr("SOLVER OFF"));
 }
 

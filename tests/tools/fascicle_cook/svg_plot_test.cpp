@@ -81,5 +81,25 @@ TEST(DrawCharts, PointsStandWhereTheirValuesAre) {
   EXPECT_NEAR(x, 930.0, 0.1);
 }
 
+// Powers of ten are equally far from each other; what has no logarithm leaves a gap.
+TEST(DrawCharts, ALogarithmicAxis) {
+  std::vector<Chart> charts(1);
+  charts[0].logarithmic = true;
+  charts[0].lines = {{"", "#123456", 1.8, {1e-1, 1e-2, 1e-3, 0.0, 1e-2, 1e-4, -1.0}}};
+  const std::string svg = draw_charts("", "", charts, "iteration");
+  const auto document = parse(svg);
+  EXPECT_EQ(count(document, "path"), 2);
+  double x[3], y[3];
+  const std::string path = document.child("svg").child("path").attribute("d").value();
+  ASSERT_EQ(std::sscanf(path.c_str(), "M%lf %lfL%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1], &x[2], &y[2]), 6) << path;
+  EXPECT_NEAR(y[1] - y[0], y[2] - y[1], 0.11);
+  EXPECT_GT(y[1], y[0] + 40.0);
+  for (const char* label : {">1e-1<", ">1e-4<", ">iteration<"}) EXPECT_NE(svg.find(label), std::string::npos) << label;
+  EXPECT_EQ(svg.find(">step<"), std::string::npos);
+  // Nothing to show.
+  charts[0].lines[0].values = {0.0, -1.0};
+  EXPECT_EQ(count(parse(draw_charts("", "", charts)), "path"), 0);
+}
+
 }  // namespace
 }  // namespace fascicle::cook
