@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <glm/geometric.hpp>
@@ -18,7 +22,9 @@
 #include "engine/animation/skeleton.hpp"
 #include "engine/content/triangle_mesh.hpp"
 #include "engine/geometry/mesh_measures.hpp"
+#include "engine/geometry/winding_number.hpp"
 #include "modules/muscle/asset/fibres/fibre_bundle.hpp"
+#include "modules/muscle/asset/hull/hull_asset.hpp"
 #include "modules/muscle/asset/surface/surface_asset.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 #include "tests/support/test_data.hpp"
@@ -156,8 +162,99 @@ INSTANTIATE_TEST_SUITE_P(
                     Hip{"hip-iliacus", "iliacus", 6931, 13858, 267, 102.3e-6, -0.3138f, 0}),
     [](const auto& one) { return std::string(one.param.muscle); });
 
+auto figures(const SurfaceSettings& s) {
+  return std::tuple(s.substeps, s.density, s.stretch_compliance, s.along_fibres, s.bend_compliance, s.volume_compliance,
+                    s.anchor_compliance, s.damping, s.viscosity, s.contact_distance, s.friction, s.collide_with_bones,
+                    s.collide_with_itself, s.collide_with_muscles);
+}
+
+// What compares the two solvers must differ in nothing else.
+TEST(SurfaceScenes, HipHullIsTheTwoHipsWithHulls) {
+  FASCICLE_SKIP_WITHOUT_DATA("pbd/gluteus_maximus.vtk");
+  const auto both = load("hip-hull");
+  ASSERT_TRUE(both);
+  const CharacterAsset& character = *both->characters.at(0).character;
+  ASSERT_EQ(character.surface_muscles.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto alone = load(i == 0 ? "hip-gluteus" : "hip-iliacus");
+    ASSERT_TRUE(alone);
+    const SurfaceAsset& muscle = *character.surface_muscles[i];
+    const SurfaceAsset& same = *alone->characters.at(0).character->surface_muscles.at(0);
+    EXPECT_EQ(muscle.name, same.name);
+    EXPECT_EQ(muscle.file_vertex, same.file_vertex);
+    EXPECT_EQ(muscle.volume, same.volume);
+    ASSERT_EQ(muscle.attached.size(), same.attached.size());
+    for (std::size_t v = 0; v < same.attached.size(); ++v) ASSERT_EQ(muscle.attached[v].vertex, same.attached[v].vertex);
+    EXPECT_EQ(muscle.frame_bone, same.frame_bone);
+    EXPECT_EQ(muscle.bones, same.bones);
+    EXPECT_EQ(muscle.fibres.size(), same.fibres.size());
+    EXPECT_EQ(figures(muscle.settings), figures(same.settings));
+    ASSERT_EQ(muscle.packs.size(), same.packs.size());
+    EXPECT_EQ(std::memcmp(muscle.packs.data(), same.packs.data(), muscle.packs.size() * sizeof(HingePack)), 0);
+
+    ASSERT_TRUE(character.hulls.at(i));
+    EXPECT_EQ(character.hulls[i]->rest.size(), 300u);
+    ASSERT_EQ(character.hulls[i]->levels.size(), 1u);
+    EXPECT_EQ(character.hulls[i]->levels[0].solver, SurfaceSolver::kCoarseHull);
+    // The line runs through the muscle, from where the pelvis holds it to the femur.
+    const SurfaceMuscleDescription& description = character.surface_descriptions[i];
+    const auto& line = description.action_line;
+    ASSERT_GE(line.size(), 4u);
+    EXPECT_EQ(line.front().bone, muscle.attachments[0].bone);
+    EXPECT_EQ(line.back().bone, muscle.attachments[1].bone);
+    const WindingField inside(description.mesh);
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const bool end = k == 0 || k + 1 == line.size();
+      EXPECT_TRUE(end || inside.inside(line[k].position)) << muscle.name << " point " << k;
+    }
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+      glm::dvec3 middle(0.0);
+      for (const std::uint32_t v : description.attachments[end].vertices) {
+        middle += glm::dvec3(description.mesh.positions[v]);
+      }
+      middle /= static_cast<double>(description.attachments[end].vertices.size());
+      const glm::vec3& point = end == 0 ? line.front().position : line.back().position;
+      EXPECT_LT(glm::distance(glm::vec3(middle), point), 0.001f) << muscle.name;
+    }
+  }
+}
+
+// Every hundredth of a radian from 0 to 1, in no order; then twenty of them again, after other poses than before.
+TEST(SurfaceScenes, HipHullTakesPosesInAnyOrder) {
+  FASCICLE_SKIP_WITHOUT_DATA("pbd/femur.vtk");
+  const auto scene = load("hip-hull");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->frames, 150);
+  const glm::vec3 centre(0.146f, -0.431f, -0.238f);
+  const auto turn = [&](int pose) {
+    return glm::translate(glm::mat4(1.0f), centre) *
+           glm::rotate(glm::mat4(1.0f), -0.01f * static_cast<float>(pose), {1.0f, 0.0f, 0.0f}) *
+           glm::translate(glm::mat4(1.0f), -centre);
+  };
+  std::vector<int> poses;
+  for (int step = 0; step <= scene->frames; ++step) {
+    const glm::mat4 motion = motion_at(*scene, "femur", step);
+    poses.push_back(static_cast<int>(std::lround(-100.0 * std::atan2(motion[1].z, motion[1].y))));
+    // No step is half-way to the next pose, however small a part of it.
+    expect_same_motion(motion, turn(poses.back()), step);
+  }
+  EXPECT_EQ(poses[0], 0);
+  std::map<int, std::set<int>> before;
+  int falls = 0;
+  for (std::size_t step = 1; step < poses.size(); ++step) {
+    EXPECT_EQ(before[poses[step]].empty(), step <= 101) << "pose " << poses[step];
+    EXPECT_TRUE(before[poses[step]].insert(poses[step - 1]).second) << "pose " << poses[step];
+    falls += poses[step] < poses[step - 1];
+  }
+  EXPECT_EQ(before.size(), 101u);
+  EXPECT_EQ(before.begin()->first, 0);
+  EXPECT_EQ(before.rbegin()->first, 100);
+  EXPECT_EQ(std::ranges::count_if(before, [](const auto& one) { return one.second.size() > 1; }), 20);
+  EXPECT_GT(falls, 50);
+}
+
 TEST(SurfaceScenes, SayWhatIsMissingWithoutTheData) {
-  for (const char* name : {"box", "hip-gluteus", "hip-iliacus"}) {
+  for (const char* name : {"box", "hip-gluteus", "hip-iliacus", "hip-hull"}) {
     const auto loaded = load_scene(kScenes / (std::string(name) + ".scene.json"), {.data_folder = "/no/such/folder"});
     ASSERT_FALSE(loaded.ok());
     EXPECT_TRUE(lacks_data(loaded.diagnostics()));
