@@ -1,12 +1,12 @@
 #include "modules/muscle/systems/4_solve/pose_surface_muscles.hpp"
 
-#include <algorithm>
-
 #include "engine/ecs/each_in_parallel.hpp"
 #include "modules/muscle/kernels/hull/blend_surface.hpp"
 
 namespace fascicle::muscle {
 namespace {
+
+constexpr float kRounding = 1.0e-3f;  // of a step: less time than that is left only because numbers are rounded
 
 void place_line(const SurfaceState& state, SurfaceHull& hull) {
   for (std::size_t i = 0; i < hull.line.size(); ++i) {
@@ -52,7 +52,8 @@ bool pose_muscle(const PoseContext& context, const SurfaceMuscle& muscle, const 
     hull.blend_left = hull.blend_time;
   }
   hull.changed = false;
-  hull.blend_left = std::max(0.0f, hull.blend_left - context.time);
+  hull.blend_left -= context.time;
+  if (!(hull.blend_left > kRounding * context.time)) hull.blend_left = 0.0f;
   const float share = hull.blend_time > 0.0f ? fading(hull.blend_left / hull.blend_time) : 0.0f;
   if (share > 0.0f) {
     state.volume = add_difference(step, share, hull.difference, hull.volume_difference, state.scratch,
