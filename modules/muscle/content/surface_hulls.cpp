@@ -12,23 +12,33 @@
 #include "engine/parallel/for_range.hpp"
 #include "modules/muscle/asset/hull/hull_asset.hpp"
 #include "modules/muscle/asset/surface/check_surface.hpp"
+#include "modules/muscle/content/surface_limits.hpp"
 
 namespace fascicle::muscle {
 
 namespace {
 
-// A stored hull no longer tells how it came about; what its author should know of it is said at each load.
+// What is wrong with a hull, or to be known of it. A stored one no longer tells how it came about, so all of it is said
+// here at each load: in the same words, and in the file's unit.
 Diagnostics judge(const SurfaceMuscleDescription& muscle, const ProgressiveHull& hull) {
   Diagnostics found;
   const HullSettings& asked = muscle.hull;
   const std::size_t vertices = hull.mesh.positions.size();
   if (vertices <= asked.vertices) return found;
+  const bool bounded = asked.error > 0.0f;
   const std::string which =
-      asked.error > 0.0f ? fmt::format("a hull no further than {:.4g} mm away", 1000.0f * asked.error) : "its hull";
-  found.warnings.push_back(
-      fault_of(muscle, "hull", fmt::format("{} needs {} vertices, more than the {} asked for", which, vertices, asked.vertices),
-               asked.error > 0.0f ? "ask for more \"vertices\", or give a larger \"error_mm\""
-                                  : fmt::format("ask for {} \"vertices\" or more", vertices)));
+      bounded ? fmt::format("a hull no further than {:.4g} mm away", 1000.0f * asked.error) : std::string("its hull");
+  const auto most = static_cast<std::size_t>(kHullVerticesRange.max);
+  if (vertices > most) {
+    found.errors.push_back(fault_of(
+        muscle, "hull", fmt::format("{} needs {} vertices, and the solver takes {} at most", which, vertices, most),
+        bounded ? "give a larger \"error_mm\"" : "smooth the mesh, or give \"solver\": \"dynamic\""));
+  } else {
+    found.warnings.push_back(fault_of(
+        muscle, "hull", fmt::format("{} needs {} vertices, more than the {} asked for", which, vertices, asked.vertices),
+        bounded ? "ask for more \"vertices\", or give a larger \"error_mm\""
+                : fmt::format("ask for {} \"vertices\" or more", vertices)));
+  }
   return found;
 }
 
@@ -38,23 +48,29 @@ void place_at(const SurfaceMuscleDescription& muscle, Diagnostics& found) {
     one = fault_of(muscle, "hull", std::move(one.cause), std::move(one.remedy));
   };
   std::ranges::for_each(found.errors, place);
-  std::ranges::for_each(found.warnings, place);
 }
 
+// From the store, or made; empty, with an error, where there is none to work with.
 std::optional<ProgressiveHull> find_hull(const SurfaceMuscleDescription& muscle, const HullStore& store,
                                          Diagnostics& diagnostics) {
   const HullTarget target = hull_target(muscle);
+  std::optional<ProgressiveHull> hull;
   const auto stored = store.find(muscle.name);
   if (stored != store.end() && stored->second.inputs == hull_inputs(muscle.mesh, target)) {
-    diagnostics.append(judge(muscle, stored->second.hull));
-    return stored->second.hull;
+    hull = stored->second.hull;
+  } else {
+    auto built = build_progressive_hull(muscle.mesh, target);
+    if (!built) {
+      place_at(muscle, built.diagnostics());
+      diagnostics.append(std::move(built.diagnostics()));
+      return std::nullopt;
+    }
+    hull = std::move(*built);
   }
-  auto built = build_progressive_hull(muscle.mesh, target);
-  place_at(muscle, built.diagnostics());
-  diagnostics.append({.errors = std::move(built.diagnostics().errors), .warnings = {}});
-  if (!built) return std::nullopt;
-  diagnostics.append(judge(muscle, *built));
-  return std::move(*built);
+  Diagnostics found = judge(muscle, *hull);
+  if (!found.ok()) hull.reset();
+  diagnostics.append(std::move(found));
+  return hull;
 }
 
 }  // namespace

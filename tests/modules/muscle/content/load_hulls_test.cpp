@@ -228,5 +228,22 @@ TEST_F(LoadHulls, AHullThatNeedsMoreVerticesThanAskedForIsToldAtItsMuscle) {
   expect_told();
 }
 
+TEST_F(LoadHulls, AHullThatNeedsMoreThanTheSolverTakesIsAnError) {
+  const glm::mat4 upright = glm::rotate(glm::mat4(1.0f), -1.5707963f, {1.0f, 0.0f, 0.0f});
+  TriangleMesh fine = test::moved(test::make_sphere(100.0f, 45, 60),
+                                  glm::translate(glm::mat4(1.0f), {-150.0f, 0.0f, 0.0f}) * upright);
+  folder.write("fine.obj", test::as_obj(fine));
+  ASSERT_GT(fine.positions.size(), 2000u);
+  const std::string text = hulled_limb(R"({ "error_mm": 0.001 })");
+  const auto refused = load_character(test::write_limb(folder, with(text, "ball.obj", "fine.obj")), {.bone_fields = false});
+  ASSERT_FALSE(refused.ok());
+  ASSERT_EQ(refused.diagnostics().errors.size(), 1u) << to_text(refused.diagnostics());
+  const Diagnostic& error = refused.diagnostics().errors[0];
+  EXPECT_EQ(error.path, "/surface_muscles/0/hull");
+  EXPECT_GT(error.line, 0);
+  EXPECT_THAT(error.cause, HasSubstr("vertices, and the solver takes 2000 at most"));
+  EXPECT_THAT(error.remedy, HasSubstr("error_mm"));
+}
+
 }  // namespace
 }  // namespace fascicle::muscle
