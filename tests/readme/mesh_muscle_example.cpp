@@ -9,6 +9,7 @@
 #include "engine/ecs/world.hpp"
 #include "engine/parallel/worker_arena.hpp"
 #include "modules/muscle/muscle.hpp"
+#include "tests/readme/prism.hpp"
 
 fascicle::ecs::Entity add_mesh_muscle(fascicle::ecs::World& world, fascicle::ecs::Entity character,
                                       const fascicle::TriangleMesh& mesh, const std::vector<std::uint32_t>& upper,
@@ -16,25 +17,7 @@ fascicle::ecs::Entity add_mesh_muscle(fascicle::ecs::World& world, fascicle::ecs
 
 int main() {
   using namespace fascicle;
-  constexpr std::uint32_t kSides = 4, kLayers = 5;
-  TriangleMesh mesh;
-  for (std::uint32_t layer = 0; layer <= kLayers; ++layer) {
-    for (const glm::vec2 corner : {glm::vec2(1, 1), glm::vec2(-1, 1), glm::vec2(-1, -1), glm::vec2(1, -1)}) {
-      mesh.positions.emplace_back(0.01f * corner.x, 0.01f * corner.y, 0.02f * static_cast<float>(layer));
-    }
-  }
-  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
-  };
-  for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
-    for (std::uint32_t i = 0; i < kSides; ++i) {
-      const std::uint32_t a = kSides * layer + i, b = kSides * layer + (i + 1) % kSides;
-      quad(a, b, b + kSides, a + kSides);
-    }
-  }
-  const std::uint32_t top = kSides * kLayers;
-  quad(3, 2, 1, 0);
-  quad(top, top + 1, top + 2, top + 3);
+  const readme::Prism prism;
 
   ecs::World world;
   ecs::Schedule schedule;
@@ -43,8 +26,7 @@ int main() {
   muscle::add_muscle_systems(schedule);
   const ecs::Entity character = world.create();
   world.add(character, BoneMatrices{std::vector<glm::mat4>(2, glm::mat4(1.0f)), 0});
-  const ecs::Entity added =
-      add_mesh_muscle(world, character, mesh, {0, 1, 2, 3}, {top, top + 1, top + 2, top + 3});
+  const ecs::Entity added = add_mesh_muscle(world, character, prism.mesh, prism.lower, prism.upper);
   if (added == ecs::kNoEntity) return 1;
   for (int frame = 1; frame <= 60; ++frame) {
     world.get<BoneMatrices>(character).world[1] =
