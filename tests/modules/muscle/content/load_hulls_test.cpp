@@ -8,6 +8,7 @@
 
 #include "engine/animation/skeleton.hpp"
 #include "modules/muscle/asset/hull/hull_asset.hpp"
+#include "modules/muscle/content/content_reloader.hpp"
 #include "modules/muscle/content/hull_store.hpp"
 #include "modules/muscle/content/surface_hulls.hpp"
 #include "tests/modules/muscle/content/scratch_surfaces.hpp"
@@ -193,6 +194,32 @@ TEST_F(LoadHulls, AStoredHullIsTakenWhereItIsUpToDate) {
   ASSERT_TRUE(larger);
   EXPECT_EQ(larger->hulls.at(0)->rest.size(), count);
   EXPECT_THAT(warnings(), IsEmpty());
+}
+
+TEST_F(LoadHulls, AStoreBesideTheFileThatMusclesAreFromCounts) {
+  const auto made = load(hulled_limb());
+  ASSERT_TRUE(made);
+  store_as_if(*made, {.vertices = 30});
+  std::string text = hulled_limb();
+  const std::size_t from = text.find("\"muscles\""), to = text.find("\n}\n");
+  text.replace(from, to - from, "\"muscles_from\": \"limb.character.json\"");
+  const auto other = load_character(folder.write("other.character.json", text), {.bone_fields = false});
+  ASSERT_TRUE(other.ok()) << to_text(other.diagnostics());
+  EXPECT_LE((*other)->hulls.at(0)->rest.size(), 30u);
+}
+
+TEST_F(LoadHulls, ARunningGameTakesAStoreUp) {
+  const auto made = load(hulled_limb());
+  ASSERT_TRUE(made);
+  const auto scene = folder.write(
+      "limb.scene.json", R"({ "version": 1, "name": "limb", "characters": [{ "file": "limb.character.json" }] })");
+  const auto first = load_scene(scene);
+  ASSERT_TRUE(first.ok()) << to_text(first.diagnostics());
+  ContentReloader reloader(scene, *first);
+  store_as_if(*made, {.vertices = 30});
+  const auto outcome = reloader.wait();
+  ASSERT_TRUE(outcome && outcome->scene);
+  EXPECT_LE(outcome->scene->characters.at(0).character->hulls.at(0)->rest.size(), 30u);
 }
 
 TEST_F(LoadHulls, ABrokenStoreIsToldAndLeftAside) {
