@@ -9,6 +9,10 @@
 
 #include "engine/animation/skeleton.hpp"
 #include "engine/content/triangle_mesh.hpp"
+#include "modules/muscle/add_hull.hpp"
+#include "modules/muscle/asset/hull/hull_asset.hpp"
+#include "modules/muscle/asset/hull/progressive_hull.hpp"
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/spawn_surface_muscles.hpp"
 #include "tests/support/shapes.hpp"
@@ -142,6 +146,82 @@ TEST(SurfaceFigures, OfSeveralMusclesTheReportHasTheWorst) {
   EXPECT_NEAR(value("attachment_error_max_mm"), 13.0, 1e-3);
   EXPECT_TRUE(metrics["surface.fibre_length_ratio_mean"][0].isNull());  // there are none
   EXPECT_FALSE(metrics.isMember("surface.fibre_points_outside"));
+}
+
+// A ball held at its poles by both bones, posed by its hull, or by dynamics where the game forces that.
+ecs::Entity spawn_with_hull(Simulation& simulation) {
+  muscle::SurfaceMuscleDescription description;
+  description.name = "ball";
+  description.mesh = test::make_sphere(0.02f, 12, 16, {0.0f, 0.0f, 0.03f});
+  const auto last = static_cast<std::uint32_t>(description.mesh.positions.size()) - 1;
+  description.attachments = {{0, true, {0}}, {1, false, {last}}};
+  description.action_line = {{.bone = 0, .position = {0.0f, 0.0f, 0.05f}}, {.bone = 1, .position = {0.0f, 0.0f, 0.01f}}};
+  description.levels = {{.solver = muscle::SurfaceSolver::kCoarseHull}};
+  const auto asset = muscle::build_surface_asset(description, 2);
+  const auto hull = muscle::build_progressive_hull(description.mesh, {.vertices = 60});
+  if (!asset || !hull) return ecs::kNoEntity;
+  const auto reduced = muscle::build_hull_asset(**asset, description, hull->mesh);
+  EXPECT_TRUE(reduced.ok()) << to_text(reduced.diagnostics());
+  if (!reduced) return ecs::kNoEntity;
+  const SpawnedCharacter& character = simulation.characters().front();
+  const ecs::Entity entity = muscle::spawn_surface_muscle(simulation.world(), character.entity, *asset,
+                                                          character.asset->skeleton->rest_world, {});
+  muscle::add_hull(simulation.world(), entity, *reduced);
+  return entity;
+}
+
+TEST(SurfaceFigures, SayHowTheHullWasSolved) {
+  Simulation simulation(make_scene(), {.workers = 1});
+  const ecs::Entity first = spawn_with_hull(simulation), second = spawn_with_hull(simulation);
+  spawn(simulation, make_ball());
+  ASSERT_NE(first, ecs::kNoEntity);
+  simulation.step();
+  // As if the solver had found that.
+  auto& one = simulation.world().get<muscle::SurfaceHull>(first);
+  auto& other = simulation.world().get<muscle::SurfaceHull>(second);
+  one.pose = {.volume = 1.0, .iterations = 3, .converged = true};
+  one.scratch.residuals = {1e-2f, 1e-4f, 1e-6f};
+  other.pose = {.volume = 1.0, .iterations = 10, .converged = false};
+  other.scratch.residuals = {1e-2f, 0.25f};
+  SurfaceMeters meters;
+  const std::vector<SurfaceFigures>& figures = meters.measure(simulation);
+  ASSERT_EQ(figures.size(), 3u);
+  ASSERT_TRUE(figures[0].hull && figures[1].hull);
+  EXPECT_FALSE(figures[2].hull);
+  EXPECT_TRUE(figures[0].hull->posed && figures[0].hull->converged);
+  EXPECT_EQ(figures[0].hull->iterations, 3u);
+  EXPECT_NEAR(figures[0].hull->residual, 1e-6, 1e-12);
+  // Of two the report has the worse.
+  const Json::Value metrics = metrics_of(figures);
+  EXPECT_EQ(metrics["surface.iterations"][0].asDouble(), 10.0);
+  EXPECT_EQ(metrics["surface.converged"][0].asDouble(), 0.0);
+  EXPECT_EQ(metrics["surface.residual"][0].asDouble(), 0.25);
+  // One that does not iterate has no residual, which is not a small one.
+  other.scratch.residuals.clear();
+  EXPECT_TRUE(metrics_of(meters.measure(simulation))["surface.residual"][0].isNull());
+}
+
+TEST(SurfaceFigures, ThoseOfTheHullAreNullWhereDynamicsSolve) {
+  Simulation simulation(make_scene(), {.workers = 1});
+  const ecs::Entity entity = spawn_with_hull(simulation);
+  ASSERT_NE(entity, ecs::kNoEntity);
+  simulation.world().get<muscle::SurfaceHull>(entity).forced = muscle::SurfaceSolver::kDynamic;
+  simulation.step();
+  SurfaceMeters meters;
+  const std::vector<SurfaceFigures>& figures = meters.measure(simulation);
+  ASSERT_EQ(figures.size(), 1u);
+  ASSERT_TRUE(figures[0].hull);
+  EXPECT_FALSE(figures[0].hull->posed);
+  const Json::Value metrics = metrics_of(figures);
+  for (const char* name : {"surface.iterations", "surface.converged", "surface.residual"}) {
+    ASSERT_TRUE(metrics.isMember(name)) << name;
+    EXPECT_TRUE(metrics[name][0].isNull()) << name;
+  }
+  // Where nothing has a hull nobody asks.
+  Simulation without(make_scene(), {.workers = 1});
+  spawn(without, make_ball());
+  without.step();
+  EXPECT_FALSE(metrics_of(SurfaceMeters().measure(without)).isMember("surface.iterations"));
 }
 
 }  // namespace

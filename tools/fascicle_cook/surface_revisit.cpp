@@ -75,7 +75,7 @@ void revisit(const std::shared_ptr<const SceneAsset>& scene, const std::vector<C
     // The run has just been at its last pose.
     if (i > 0) visit(by_step, step, Revisit::kAfterOthers, simulation, run);
     for (const Revisit how : {Revisit::kFirst, Revisit::kIterated}) {
-      game::Simulation fresh(scene, {.workers = run.options.workers, .skin_meshes = false});
+      game::Simulation fresh(scene, simulation_options(run.options));
       switch_off(run.options, fresh.world());
       if (how == Revisit::kIterated) iterate_further(fresh.world());
       visit(by_step, step, how, fresh, run);

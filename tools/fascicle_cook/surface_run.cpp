@@ -120,7 +120,7 @@ std::vector<glm::vec3> shape_of(const SurfaceAsset& asset, const SurfaceState& s
 }
 
 SurfaceRun run_surfaces(const std::shared_ptr<const SceneAsset>& scene, const SurfaceRunOptions& options) {
-  game::Simulation simulation(scene, {.workers = options.workers, .skin_meshes = false});
+  game::Simulation simulation(scene, simulation_options(options));
   ecs::World& world = simulation.world();
   switch_off(options, world);
   SurfaceRun run{.scene = scene->name, .simd = std::string(to_string(simulation.simd())), .options = options,

@@ -3,8 +3,9 @@
 #include <glm/matrix.hpp>
 
 #include "engine/animation/skeleton.hpp"
+#include "engine/content/triangle_mesh.hpp"
 #include "engine/ecs/world.hpp"
-#include "modules/muscle/components/surface_hull.hpp"
+#include "modules/muscle/asset/hull/hull_asset.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 
 namespace fascicle::cook {
@@ -56,6 +57,12 @@ Result<std::shared_ptr<const SceneAsset>> without_parts(const std::shared_ptr<co
   return std::shared_ptr<const SceneAsset>(std::move(changed));
 }
 
+game::SimulationOptions simulation_options(const SurfaceRunOptions& options) {
+  game::SimulationOptions simulation{.workers = options.workers, .skin_meshes = false};
+  simulation.surface_solver = options.forced;
+  return simulation;
+}
+
 void switch_off(const SurfaceRunOptions& options, ecs::World& world) {
   world.view<SurfaceMuscle, SurfaceState>().each([&](SurfaceMuscle& muscle, SurfaceState& state) {
     muscle.settings.substeps *= options.substeps_times;
@@ -66,7 +73,6 @@ void switch_off(const SurfaceRunOptions& options, ecs::World& world) {
     if (!options.bones) muscle.settings.collide_with_bones = false;
     if (!options.edges || !options.angles) muscle.asset = softened(*muscle.asset, options);
   });
-  world.view<SurfaceHull>().each([&](SurfaceHull& hull) { hull.forced = options.forced; });
 }
 
 void follow_frames(ecs::World& world) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "engine/content/result.hpp"
+#include "game/simulation.hpp"
 #include "modules/muscle/content/scene_asset.hpp"
 #include "tools/fascicle_cook/surface_run.hpp"
 
@@ -18,6 +19,8 @@ namespace fascicle::cook {
 // angles and the main direction weigh is in what a hull was reduced to. The same scene where that changes nothing.
 Result<std::shared_ptr<const muscle::SceneAsset>> without_parts(
     const std::shared_ptr<const muscle::SceneAsset>& scene, const SurfaceRunOptions& options);
+
+game::SimulationOptions simulation_options(const SurfaceRunOptions& options);
 
 // Everything else, on muscles that were just spawned.
 void switch_off(const SurfaceRunOptions& options, ecs::World& world);
