@@ -59,6 +59,19 @@ double shortest_seconds(F&& f) {
   return 1.0e-9 * static_cast<double>(best);
 }
 
+double read_bytes_per_second(std::size_t bytes) {
+  const std::size_t count = bytes / sizeof(float);
+  const AlignedVector<float> data(count, 1.0f);
+  const double seconds = shortest_seconds([&] {
+    __m128 sum[4] = {};
+    for (std::size_t i = 0; i < count; i += 16) {
+      for (std::size_t k = 0; k < 4; ++k) sum[k] = _mm_add_ps(sum[k], _mm_load_ps(data.data() + i + 4 * k));
+    }
+    for (__m128& s : sum) benchmark::DoNotOptimize(s);
+  });
+  return static_cast<double>(bytes) / seconds;
+}
+
 }  // namespace
 
 double multiply_adds_per_second(SimdLevel level) {
@@ -72,18 +85,12 @@ double multiply_adds_per_second(SimdLevel level) {
 }
 
 double second_level_bandwidth() {
-  static const double rate = [] {
-    constexpr std::size_t kFloats = (std::size_t{512} << 10) / sizeof(float);
-    const AlignedVector<float> data(kFloats, 1.0f);
-    const double seconds = shortest_seconds([&] {
-      __m128 sum[4] = {};
-      for (std::size_t i = 0; i < kFloats; i += 16) {
-        for (std::size_t k = 0; k < 4; ++k) sum[k] = _mm_add_ps(sum[k], _mm_load_ps(data.data() + i + 4 * k));
-      }
-      for (__m128& s : sum) benchmark::DoNotOptimize(s);
-    });
-    return static_cast<double>(kFloats * sizeof(float)) / seconds;
-  }();
+  static const double rate = read_bytes_per_second(std::size_t{512} << 10);
+  return rate;
+}
+
+double third_level_bandwidth() {
+  static const double rate = read_bytes_per_second(std::size_t{12} << 20);
   return rate;
 }
 

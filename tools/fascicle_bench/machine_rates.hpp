@@ -12,4 +12,7 @@ double multiply_adds_per_second(SimdLevel level);
 // Bytes a second read from an array of half a MiB, which lies in a second-level cache. Measured once.
 double second_level_bandwidth();
 
+// Of 12 MiB: in a third-level cache, or in memory.
+double third_level_bandwidth();
+
 }  // namespace fascicle::bench

@@ -2,11 +2,11 @@
 // For the kernels' source files only (see engine/math/wide_float.hpp).
 //
 // Mueller et al. 2016 turn R by omega = a / |tr M|, M = S R^T, a = (M_zy - M_yz, M_xz - M_zx, M_yx - M_xy), which is
-// their sum of R_k x S_k: a step along the slope that leaves a constant part of the error (half of it for even S, nearly
-// all of it for thin S). This goes to the second order instead. About the axis n by the angle t,
+// their sum of R_k x S_k: a step along the slope that leaves a constant part of the error, half of it for round S,
+// nearly all of it for thin S. This goes to the second order instead. About the axis n by the angle t,
 //   f(t) = f - n^T H n + n^T H n cos t + a . n sin t,    H = tr(M) I - (M + M^T) / 2,
-// whose greatest value is at tan t = a . n / n^T H n. The axis is that of Newton's step d = H^-1 a, for which tan t = |d|
-// exactly, so that the quaternion of the turn is
+// whose greatest value is at tan t = a . n / n^T H n. The axis is that of Newton's step d = H^-1 a, for which tan t =
+// |d| exactly, so that the turn's quaternion is
 //   (1 + sqrt(1 + d^2), d):
 // no sine, no arc. It is the step of a Rayleigh quotient iteration on Horn's 4 x 4 matrix of S (1987), but for the
 // angle's third order, and it converges as that does, cubically: from 17 degrees away two turns reach the accuracy of
@@ -101,8 +101,8 @@ struct Turn {
   Lanes scale;  // 2 / length^2; 0: none
 };
 
-// About an axis of any length, by the angle that makes f greatest: over half of that angle (B + |(B, C)|, C n), B = n^T H
-// n and C = a . n, or, where B < 0, the same quaternion without its cancellation: (C, (|(B, C)| - B) n).
+// About an axis of any length, by the angle that makes f greatest: with B = n^T H n and C = a . n the quaternion
+// (B + |(B, C)|, C n), or, where B < 0, the same one without its cancellation, (C, (|(B, C)| - B) n).
 FASCICLE_INLINE Turn turn_about(Vector axis, const SymmetricMatrix& h, Vector a) {
   const Lanes zero = broadcast<16>(0.0f), least = broadcast<16>(1.0e-37f);
   const Lanes length2 = dot(axis, axis), b = dot(axis, h * axis), c = dot(axis, a);

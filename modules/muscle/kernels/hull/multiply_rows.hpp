@@ -2,18 +2,17 @@
 // For the kernels' source files only (see engine/math/wide_float.hpp).
 //
 // A panel's 16 rows have three running sums, each of which waits for its last addition; several panels side by side
-// hide that, as many as there are registers for.
+// hide that, as many as there are registers for. Then it is the caches that decide.
 #pragma once
 
 #include "engine/math/wide_float.hpp"
 #include "modules/muscle/kernels/hull/dense_rows.hpp"
 #include "modules/muscle/kernels/hull/hull_kernel_data.hpp"
+#include "modules/muscle/kernels/hull/repeat_value.hpp"
 
 namespace fascicle::muscle::FASCICLE_ISA {
 
-using namespace fascicle::FASCICLE_ISA;
-
-inline constexpr int kPanelsAtOnce = kNativeLanes / 4 > 1 ? kNativeLanes / 4 : 1;
+inline constexpr int kPanelsAtOnce = kNativeLanes == 16 ? 8 : 1;
 inline constexpr int kNextRows[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 // Sums of up to 16 rows, written or added.
@@ -40,8 +39,8 @@ FASCICLE_INLINE void multiply_panels(const ProductRows& rows, std::size_t panel)
   const float* const values = rows.values + panel * rows.columns * kPanelRows;
   const std::size_t stride = rows.columns * kPanelRows;
   for (std::size_t c = 0; c < rows.columns; ++c) {
-    const WideVector<16> place{broadcast<16>(rows.in[4 * c]), broadcast<16>(rows.in[4 * c + 1]),
-                               broadcast<16>(rows.in[4 * c + 2])};
+    const float* const in = rows.in + 4 * c;
+    const WideVector<16> place{repeat<16>(in), repeat<16>(in + 1), repeat<16>(in + 2)};
     for (int p = 0; p < kCount; ++p) {
       sum[p] = sum[p] + load<16>(values + static_cast<std::size_t>(p) * stride + c * kPanelRows) * place;
     }
@@ -53,11 +52,14 @@ FASCICLE_INLINE void multiply_panels(const ProductRows& rows, std::size_t panel)
   }
 }
 
-inline void multiply_rows(const ProductRows& rows) {
+// All panels from `panel`, kCount at a time, the rest by fewer.
+template <int kCount>
+FASCICLE_INLINE void multiply_from(const ProductRows& rows, std::size_t panel) {
   const std::size_t panels = (rows.rows + kPanelRows - 1) / kPanelRows;
-  std::size_t panel = 0;
-  for (; panel + kPanelsAtOnce <= panels; panel += kPanelsAtOnce) multiply_panels<kPanelsAtOnce>(rows, panel);
-  for (; panel < panels; ++panel) multiply_panels<1>(rows, panel);
+  for (; panel + kCount <= panels; panel += kCount) multiply_panels<kCount>(rows, panel);
+  if constexpr (kCount > 1) multiply_from<kCount / 2>(rows, panel);
 }
+
+inline void multiply_rows(const ProductRows& rows) { multiply_from<kPanelsAtOnce>(rows, 0); }
 
 }  // namespace fascicle::muscle::FASCICLE_ISA

@@ -392,7 +392,8 @@ TEST(HullFactor, SolvesAKnownMatrix) {
     }
     x = solve(hull_kernels(level), factor, x);
     for (std::size_t k = 0; k < 8; ++k) {
-      for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(x[i].value[k], std::exp2(static_cast<float>(k)) * static_cast<float>(i + 1));
+      const float scale = std::exp2(static_cast<float>(k));
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(x[i].value[k], scale * static_cast<float>(i + 1));
     }
   }
 }
@@ -421,7 +422,9 @@ TEST(HullFactor, AgreesWithEigenAndHasTheSameBitsOnAllInstructionSets) {
     const Eigen::MatrixXd right = a * expected;
     Columns b(factor.size);
     for (std::size_t i = 0; i < factor.size; ++i) {
-      for (int k = 0; k < 8; ++k) b[i].value[static_cast<std::size_t>(k)] = static_cast<float>(right(factor.order[i], k));
+      for (std::size_t k = 0; k < 8; ++k) {
+        b[i].value[k] = static_cast<float>(right(factor.order[i], static_cast<int>(k)));
+      }
     }
     const Columns x = solve(hull_kernels(SimdLevel::kPortable), factor, b);
     const Columns plain = solve(hull_reference_kernels(), factor, b);
