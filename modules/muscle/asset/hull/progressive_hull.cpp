@@ -32,9 +32,10 @@ constexpr double kSlack = 1.0e-9;   // by which a new vertex may be inside of a 
 constexpr double kLeastCosine = 0.2;     // between a triangle's normals before and after
 constexpr double kLeastShape = 0.1;      // 1: equilateral, 0: no area; or the worst that was there before
 constexpr double kDegenerate = 1.0e-6;   // the same, whatever was there
-// Times the edge's length cubed, added to the volume: among flat places, where nothing is added, the short edges go
-// first.
+// Added to the volume: times the edge's length cubed, so that among flat places, where no volume is added, the short
+// edges go first; and times the cube of the new vertex's way from the edge, so that there are few thin spikes.
 constexpr double kLengthCost = 1.0e-3;
+constexpr double kWayCost = 3.0e-2;
 
 // Four times the root of three times the area over the sum of the squared sides.
 double shape_of(double area, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -176,8 +177,9 @@ class Collapser {
     if (!found || !(glm::length(*found) <= kFurthest * radius_)) return false;
     candidate.place = middle + *found;
     if (!keeps_shape(candidate.place, least_shape) || !within_(candidate.place)) return false;
-    const double length = glm::length(u - v);
-    candidate.cost = (glm::dot(cost_, *found) - offset_) / 3.0 + kLengthCost * length * length * length;
+    const double length = glm::length(u - v), way = glm::length(*found);
+    candidate.cost = (glm::dot(cost_, *found) - offset_) / 3.0 + kLengthCost * length * length * length +
+                     kWayCost * way * way * way;
     return std::isfinite(candidate.cost);
   }
 
