@@ -28,6 +28,8 @@ void add_fields(CLI::App& program, Command& chosen);
 void add_counts(CLI::App& program, Command& chosen);
 // fibres SCENE|CHARACTER: fibres inside surface muscles, made, measured and, with --play, watched.
 void add_fibres(CLI::App& program, Command& chosen);
+// hull CHARACTER: coarse hulls round its surface muscles, made, measured, stored and drawn.
+void add_hull(CLI::App& program, Command& chosen);
 // slices CHARACTER|MESH...: the shapes of muscle meshes' cross sections.
 void add_slices(CLI::App& program, Command& chosen);
 // collide CHARACTER: a character played and its muscles' penetration measured.

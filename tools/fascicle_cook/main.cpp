@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   cook::add_counts(program, chosen);
   cook::add_slices(program, chosen);
   cook::add_fibres(program, chosen);
+  cook::add_hull(program, chosen);
 #ifdef FASCICLE_COOK_PLAYS
   cook::add_collide(program, chosen);
   cook::add_surface(program, chosen);
