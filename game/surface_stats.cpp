@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "game/collision_stats.hpp"
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 
 namespace fascicle::game {
@@ -36,6 +37,11 @@ void SurfaceStats::record(const Simulation& simulation) {
       row.least_volume = std::min(row.least_volume, ratio);
       row.most_volume = std::max(row.most_volume, ratio);
     }
+    const auto* hull = world.try_get<muscle::SurfaceHull>(entity);
+    if (hull != nullptr && hull->solver == muscle::SurfaceSolver::kCoarseHull) {
+      ++row.posed;
+      row.iterations += hull->pose.iterations;
+    }
     const auto* contacts = world.try_get<muscle::SurfaceContacts>(entity);
     if (contacts == nullptr) return;
     for (const muscle::SurfaceContact& contact : contacts->now) {
@@ -49,13 +55,17 @@ void SurfaceStats::record(const Simulation& simulation) {
 
 std::string SurfaceStats::to_table() const {
   if (rows_.empty()) return {};
-  std::string text = fmt::format("\n{:<16}  {:<32}  {:>9}  {:>9}  {:>12}  {:>19}  {:>9}\n", "owner", "surface muscle",
+  std::string text = fmt::format("\n{:<16}  {:<32}  {:>9}  {:>9}  {:>12}  {:>19}  {:>9}", "owner", "surface muscle",
                                  "vertices", "at bones", "pushed, mm", "volume, %", "fallbacks");
+  const bool any_posed = std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.posed > 0; });
+  text += any_posed ? "  steps posed  iterations\n" : "\n";
   for (const Row& row : rows_) {
     const std::string volume = fmt::format("{:.3f} .. {:.3f}", 100.0 * row.least_volume, 100.0 * row.most_volume);
-    text += fmt::format("{:<16}  {:<32}  {:>9}  {:>9.1f}  {:>12.3f}  {:>19}  {:>9}\n", row.owner, row.muscle,
+    text += fmt::format("{:<16}  {:<32}  {:>9}  {:>9.1f}  {:>12.3f}  {:>19}  {:>9}", row.owner, row.muscle,
                         row.vertices, row.held / static_cast<double>(row.steps), 1e3 * static_cast<double>(row.depth),
                         volume, row.fallbacks);
+    const double mean = static_cast<double>(row.iterations) / static_cast<double>(std::max<std::uint64_t>(row.posed, 1));
+    text += any_posed ? fmt::format("  {:>11}  {:>10.1f}\n", row.posed, mean) : "\n";
   }
   return text;
 }

@@ -1,5 +1,5 @@
-// What a run's surface muscles came to: vertices, contacts with bones, volume and fallbacks of each. For the
-// statistics' text.
+// What a run's surface muscles came to: vertices, contacts with bones, volume and fallbacks of each, and how many steps
+// its coarse hull posed it. For the statistics' text.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ class SurfaceStats {
     double held = 0.0;                          // vertices held at bones, sum over the steps
     float depth = 0.0f;                         // m: the furthest that one was pushed
     double least_volume = 1.0, most_volume = 1.0;  // to rest
+    std::uint64_t posed = 0, iterations = 0;    // steps that its hull posed it, and Gauss-Newton's iterations in these
   };
 
   std::vector<Row> rows_;  // in the order of their spawning; begun anew by a reload

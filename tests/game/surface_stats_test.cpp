@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/muscle.hpp"
 
@@ -58,6 +59,23 @@ TEST(SurfaceStats, StepsAddUpAndExtremesStay) {
   const std::string table = stats.to_table();
   EXPECT_THAT(table, testing::ContainsRegex("walker 1 +first +77 +5\\.0 +2\\.000 +98\\.000 \\.\\. 101\\.000 +2\n"));
   EXPECT_THAT(table, testing::ContainsRegex("walker 1 +second +77 +0\\.0 "));
+}
+
+TEST(SurfaceStats, StepsAndIterationsOfCoarseHullsAreCounted) {
+  Simulation simulation(walker(), {.workers = 1, .skin_meshes = false});
+  const ecs::Entity posed = add_muscle(simulation, "posed");
+  add_muscle(simulation, "solved");
+  simulation.world().add(posed, muscle::SurfaceHull{});
+  SurfaceStats stats;
+  for (const std::uint32_t iterations : {0u, 5u, 8u}) {
+    auto& hull = simulation.world().get<muscle::SurfaceHull>(posed);
+    hull.solver = iterations > 0 ? muscle::SurfaceSolver::kCoarseHull : muscle::SurfaceSolver::kDynamic;
+    hull.pose.iterations = iterations;
+    stats.record(simulation);
+    EXPECT_EQ(stats.to_table().find("iterations") != std::string::npos, iterations > 0);
+  }
+  EXPECT_THAT(stats.to_table(), testing::ContainsRegex("posed .* 0 +2 +6\\.5\n"));
+  EXPECT_THAT(stats.to_table(), testing::ContainsRegex("solved .* 0 +0 +0\\.0\n"));
 }
 
 TEST(SurfaceStats, OnesSpawnedAnewBeginAnew) {
