@@ -64,8 +64,9 @@ std::string SurfaceStats::to_table() const {
     text += fmt::format("{:<16}  {:<32}  {:>9}  {:>9.1f}  {:>12.3f}  {:>19}  {:>9}", row.owner, row.muscle,
                         row.vertices, row.held / static_cast<double>(row.steps), 1e3 * static_cast<double>(row.depth),
                         volume, row.fallbacks);
-    const double mean = static_cast<double>(row.iterations) / static_cast<double>(std::max<std::uint64_t>(row.posed, 1));
-    text += any_posed ? fmt::format("  {:>11}  {:>10.1f}\n", row.posed, mean) : "\n";
+    const auto posed = static_cast<double>(std::max<std::uint64_t>(row.posed, 1));
+    text += any_posed ? fmt::format("  {:>11}  {:>10.1f}\n", row.posed,
+                                    static_cast<double>(row.iterations) / posed) : "\n";
   }
   return text;
 }
