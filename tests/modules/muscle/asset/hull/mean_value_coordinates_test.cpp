@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/parallel/worker_arena.hpp"
 #include "tests/modules/muscle/asset/hull/coordinate_rows.hpp"
@@ -117,6 +120,24 @@ TEST(MeanValueCoordinates, WhateverTheTrianglesWeightsAreFinite) {
   }
 }
 
+TEST(MeanValueCoordinates, OfAMeshWithHolesReproducePoints) {
+  TriangleMesh hull = make_box(glm::vec3(-1.0f), glm::vec3(1.0f));
+  hull.indices.resize(27);  // three quarters of it
+  expect_precise(hull, points_about(200, -0.9f, 0.9f, 13), 2.0, 1.0e-6);
+}
+
+TEST(MeanValueCoordinates, OfASheetAreThoseOfAVertexOnItAndTheSameForAllBesideIt) {
+  // A square, cut along one diagonal on its upper side and along the other on its lower side: no volume, and what a
+  // point sees of the one side is what it sees of the other.
+  TriangleMesh sheet;
+  sheet.positions = {{-0.7f, -0.9f, 0.0f}, {1.1f, -0.6f, 0.0f}, {0.8f, 0.9f, 0.0f}, {-0.4f, 0.6f, 0.0f}};
+  sheet.indices = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
+  for (const glm::vec3& x : points_about(50, 0.2f, 1.5f, 16)) {
+    EXPECT_EQ(coordinates(sheet, x), std::vector<float>(4, 0.25f));
+  }
+  expect_row(coordinates(sheet, sheet.positions[1]), {0.0, 1.0, 0.0, 0.0});
+}
+
 // --- Known answers.
 
 TEST(MeanValueCoordinates, OfATetrahedronAreBarycentric) {
@@ -211,6 +232,38 @@ TEST(MeanValueCoordinates, AreContinuousAtAConcaveEdge) {
   glm::mat4 motion(1.0f);
   motion[3] = glm::vec4(-2.0f, -1.0f, -0.5f, 1.0f);
   expect_continuous(moved(make_gutter(), motion), limit, 25.0);
+}
+
+TEST(MeanValueCoordinates, AreContinuousAtASkewEdge) {
+  // Next to it, rounding decides the directions of everything that is short.
+  Numbers numbers(14);
+  for (int k = 0; k < 20; ++k) {
+    const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), 6.0f * numbers.next(), numbers.point(-1.0f, 1.0f));
+    TriangleMesh hull = moved(make_box({-1, 0, 0}, {1, 1, 1}), turn);
+    if (k % 2 == 1) hull = inside_out(hull);
+    std::rotate(hull.indices.begin(), hull.indices.begin() + 3 * (k % 12), hull.indices.end());
+    for (std::size_t i = 0; i < hull.indices.size(); i += 3) {
+      const auto corner = hull.indices.begin() + static_cast<std::ptrdiff_t>(i);
+      std::rotate(corner, corner + k % 3, corner + 3);
+    }
+    expect_continuous(hull, {0.5, 0.5, 0, 0, 0, 0, 0, 0}, 12.0);
+  }
+}
+
+TEST(MeanValueCoordinates, AreSmoothInThePlaneOfAFarTriangle) {
+  // Halfway they have changed by half, but for what is curved: what is left out there is no more than rounding.
+  glm::mat4 motion(1.0f);
+  motion[3] = glm::vec4(-0.5f, -1.0f, -0.25f, 1.0f);
+  const TriangleMesh hull = moved(make_gutter(), motion);
+  const std::vector<float> start = coordinates(hull, glm::vec3(0.0f));
+  for (const glm::vec3& direction : points_about(20, -1.0f, 1.0f, 15)) {
+    for (float h = 0.0625f; h > 1.0e-9f; h *= 0.5f) {
+      const std::vector<float> end = coordinates(hull, h * direction), half = coordinates(hull, 0.5f * h * direction);
+      for (std::size_t v = 0; v < start.size(); ++v) {
+        ASSERT_NEAR(end[v] - half[v], half[v] - start[v], 4.0f * h * h + 2.0e-7f) << h;
+      }
+    }
+  }
 }
 
 TEST(MeanValueCoordinates, AreContinuousInThePlaneOfAFarTriangle) {
