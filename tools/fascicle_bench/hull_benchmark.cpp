@@ -6,10 +6,10 @@
 //   coarse_hull/MUSCLE/VERTICES/LEVEL       a pose, one thread, without iterations on the full mesh
 //   coarse_hull_refined/MUSCLE/...          a pose with the iterations on the full mesh that content asks for
 //
-// All are timed by the processor time of one thread. Of the poses, `iterations` is the mean and `converged` the part that
-// came within the tolerance, `volume_error` the worst. M_weights counts millions a second; GFMA and L2_GB are what the
-// machine can do at most, by the same clock (machine_rates.hpp): each product with the whole matrix of weights reads
-// vertices x hull vertices x 4 bytes.
+// All are timed by the processor time of one thread. Of the poses, `iterations` is the mean and `converged` the part
+// that came within the tolerance, `volume_error` the worst. M_weights counts millions a second; GFMA, L2_GB and L3_GB
+// are what the machine can do at most, by the same clock (machine_rates.hpp): each product with the whole matrix of
+// weights reads vertices x hull vertices x 4 bytes.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -224,6 +224,7 @@ void poses(benchmark::State& state, const std::string& name, std::uint32_t verti
   state.counters["volume_error"] = volume_error;
   state.counters["GFMA"] = 1.0e-9 * bench::multiply_adds_per_second(level);
   state.counters["L2_GB"] = 1.0e-9 * bench::second_level_bandwidth();
+  state.counters["L3_GB"] = 1.0e-9 * bench::third_level_bandwidth();
 }
 
 void add_all() {
