@@ -13,7 +13,7 @@
 namespace fascicle::muscle {
 
 // out = matrix * in, or out += matrix * in, for x, y and z at once; inverse_mass is not read, and not written. Each
-// row's sum runs over its columns in order.
+// row's sum runs over its columns in order. `in` and `out` do not overlap.
 struct ProductJob {
   const DenseRows* matrix = nullptr;
   std::span<const SurfacePoint> in;  // columns

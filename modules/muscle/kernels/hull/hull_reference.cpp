@@ -35,7 +35,7 @@ Quaternion find_greatest_eigenvector(Matrix4 n) {
   for (int sweep = 0; sweep < 20; ++sweep) {
     for (std::size_t p = 0; p < 4; ++p) {
       for (std::size_t q = p + 1; q < 4; ++q) {
-        if (n[p][q] == 0.0) continue;
+        if (std::abs(n[p][q]) <= 1.0e-17 * (std::abs(n[p][p]) + std::abs(n[q][q]))) continue;
         const double angle = 0.5 * std::atan2(2.0 * n[p][q], n[q][q] - n[p][p]);
         const double c = std::cos(angle), s = std::sin(angle);
         for (std::size_t k = 0; k < 4; ++k) {
