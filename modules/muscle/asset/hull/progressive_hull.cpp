@@ -30,7 +30,8 @@ constexpr double kSlack = 1.0e-9;   // by which a new vertex may be inside of a 
 // Shapes of the triangles that a collapse leaves. The limits keep the hull from folding over and passing through
 // itself, and the coordinates on it smooth.
 constexpr double kLeastCosine = 0.2;     // between a triangle's normals before and after
-constexpr double kLeastShape = 0.1;      // 1: equilateral, 0: no area; or the worst that was there before
+constexpr double kLeastShape = 0.05;     // 1: equilateral, 0: no area; or the worst that was there before. More makes
+                                         // hulls of thin straps thick.
 constexpr double kDegenerate = 1.0e-6;   // the same, whatever was there
 // Added to the volume: times the edge's length cubed, so that among flat places, where no volume is added, the short
 // edges go first; and times the cube of the new vertex's way from the edge, so that there are few thin spikes.
