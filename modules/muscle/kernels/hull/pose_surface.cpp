@@ -1,18 +1,80 @@
 #include "modules/muscle/kernels/hull/pose_surface.hpp"
 
-namespace fascicle::muscle {
+#include <algorithm>
+#include <cmath>
 
-void lay_out(const SurfaceAsset& surface, const HullAsset& hull, HullScratch& scratch) {
-  scratch.residuals.reserve(hull.settings.iterations);
-  scratch.touches.resize(surface.bones.size());
+#include "modules/muscle/kernels/hull/hull_problem.hpp"
+#include "modules/muscle/kernels/hull/hull_state.hpp"
+#include "modules/muscle/kernels/hull/newton_step.hpp"
+#include "modules/muscle/kernels/hull/refine_surface.hpp"
+#include "modules/muscle/kernels/hull/sample_contacts.hpp"
+
+namespace fascicle::muscle {
+namespace {
+
+constexpr float kSoftVolume = 1.0f;  // m^3/Pa: a muscle that gives way so much does not keep its volume
+
+constexpr int kSettling = 3;         // volume and bones in turn: each undoes a little of the other
+
+// The full mesh where the hull is: at rest moved by W U.
+void expand(const HullProblem& problem, HullScratch& scratch) {
+  const SurfaceAsset& asset = *problem.step.asset;
+  const HullVector points = problem.step.points.first(asset.vertex_count);
+  problem.kernels.multiply({.matrix = &problem.hull.weights, .in = scratch.state.moved, .out = points});
+  for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
+    points[v].x += asset.rest[v].x;
+    points[v].y += asset.rest[v].y;
+    points[v].z += asset.rest[v].z;
+  }
 }
 
-HullPose pose_surface(const SurfaceStep& step, const HullAsset&, const HullKernels&, const HullSettings&,
-                      std::span<const glm::vec3>, HullScratch& scratch) {
+// Vertices' rotations start from their clusters'.
+void start_rotations(const HullProblem& problem, HullScratch& scratch) {
+  for (std::uint32_t v = 0; v < problem.step.asset->vertex_count; ++v) {
+    const std::uint32_t cluster = problem.hull.shape.cluster[v];
+    for (std::size_t i = 0; i < 9; ++i) {
+      scratch.vertex_rotations[v / kPanelRows].value[i][v % kPanelRows] =
+          scratch.state.rotations[cluster / kPanelRows].value[i][cluster % kPanelRows];
+    }
+  }
+}
+
+}  // namespace
+
+HullPose pose_surface(const SurfaceStep& step, const HullAsset& hull, const HullKernels& kernels,
+                      const HullSettings& settings, std::span<const glm::vec3> line, HullScratch& scratch) {
+  const HullProblem problem{step, hull, kernels, settings, line, step.settings.volume_compliance < kSoftVolume};
+  const SurfaceAsset& asset = *step.asset;
+  const double size = static_cast<double>(asset.size);
   scratch.residuals.clear();
-  SurfaceScratch carried;
-  lay_out(*step.asset, carried);
-  return {.volume = carry_rest_shape(step, carried), .iterations = 0, .converged = true};
+  scratch.refined.clear();
+  std::ranges::fill(scratch.touches, BoneTouch{});
+  place_bones(step, scratch.bones);
+
+  HullPose pose;
+  find_load(problem, scratch);
+  start_state(problem, scratch);
+  while (pose.iterations < settings.iterations && !pose.converged) {
+    const double moved = newton_step(problem, scratch) / size;
+    scratch.residuals.push_back(static_cast<float>(moved));
+    ++pose.iterations;
+    pose.converged = moved <= static_cast<double>(settings.tolerance);
+    if (!std::isfinite(moved)) break;
+  }
+  expand(problem, scratch);
+  attach_exactly(problem, scratch);
+  if (settings.refinements > 0) {
+    std::ranges::copy(step.points.first(asset.vertex_count), scratch.brought.begin());
+    start_rotations(problem, scratch);
+    for (std::uint32_t i = 0; i < settings.refinements; ++i) {
+      scratch.refined.push_back(static_cast<float>(refine_once(problem, scratch) / size));
+      if (push_out(problem, scratch)) std::ranges::copy(step.points.first(asset.vertex_count), scratch.brought.begin());
+    }
+  }
+  pose.volume = restore_volume(problem, scratch);
+  for (int i = 0; i < kSettling && push_out(problem, scratch); ++i) pose.volume = restore_volume(problem, scratch);
+  std::ranges::fill(step.velocity, SurfacePoint{});
+  return pose;
 }
 
 }  // namespace fascicle::muscle

@@ -6,24 +6,15 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "modules/muscle/asset/hull/hull_asset.hpp"
 #include "modules/muscle/kernels/hull/hull_kernels.hpp"
+#include "modules/muscle/kernels/hull/hull_scratch.hpp"
 #include "modules/muscle/kernels/surface/step_surface.hpp"
 
 namespace fascicle::muscle {
-
-// Scratch of one muscle, allocated once.
-struct HullScratch {
-  std::vector<float> residuals;         // of the last pose, by iteration: how far it moved a hull vertex at most, as a
-                                        // part of the muscle's size
-  std::vector<float> refined;           // likewise of the full mesh's iterations and vertices
-  std::vector<BoneTouch> touches;       // by bone it collides with
-};
-void lay_out(const SurfaceAsset& surface, const HullAsset& hull, HullScratch& scratch);
 
 struct HullPose {
   double volume = 0.0;                  // m^3
