@@ -25,7 +25,7 @@ namespace fascicle::cook {
 namespace {
 
 constexpr int kOversampling = 2;  // pixels drawn a side of one kept
-constexpr float kMargin = 1.05f;
+constexpr float kMargin = 1.1f, kHeadroom = 0.05f;  // of half the picture; the latter for the caption
 constexpr float kFieldOfView = 0.25f;  // rad: nearly parallel, so that sizes compare
 constexpr float kGlass = 0.16f;
 constexpr glm::vec3 kMuscleColour{0.46f, 0.13f, 0.11f}, kHullColour{0.62f, 0.70f, 0.82f};  // linear
@@ -70,6 +70,7 @@ class HullArtist {
   Image draw(const Cell& cell, const glm::vec2& half_size, const std::string& caption, int width, int height) {
     DrawView view;
     view.camera = {0.5f * (cell.lower + cell.upper), 1.0f, 0.0f, 0.0f, kFieldOfView};
+    view.camera.target.y += kHeadroom * half_size.y;
     const float tall = std::tan(0.5f * kFieldOfView), wide = tall * static_cast<float>(width) / static_cast<float>(height);
     const float away = std::max(half_size.y / tall, half_size.x / wide);
     view.camera.distance = std::clamp(kMargin * away + 0.5f * (cell.upper.z - cell.lower.z), 0.02f, 200.0f);

@@ -83,7 +83,7 @@ bool write_objs(const Options& options, std::span<const MeasuredHull> hulls) {
 
 #ifdef FASCICLE_COOK_DRAWS
 bool draw(const Options& options, std::span<const MeasuredHull> hulls) {
-  constexpr int kHeight = 620;  // pixels of each
+  constexpr int kHeight = 500;  // pixels of each
   std::vector<PicturedHull> pictured;
   for (const MeasuredHull& one : hulls) {
     pictured.push_back({one.fine, &one.hull.mesh,
