@@ -4,8 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include "modules/muscle/content/character_asset.hpp"
+#include "modules/muscle/content/surface_hulls.hpp"
 #include "tests/modules/muscle/content/scratch_content.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -120,6 +123,27 @@ TEST(HullStore, LiesBesideItsCharacter) {
   EXPECT_EQ(hull_store_of("a/walker/walker.character.json"), "a/walker/walker.hulls.json");
   EXPECT_EQ(hull_store_of("legs.json"), "legs.hulls.json");
   EXPECT_EQ(hull_store_of("legs"), "legs.hulls.json");
+}
+
+// Who changes the way hulls are made raises kHullVersion and stores the project's own anew.
+TEST(HullStore, TheHipsHullsAreWhatWouldBeMadeNow) {
+  FASCICLE_SKIP_WITHOUT_DATA("pbd/gluteus_maximus.vtk");
+  const std::filesystem::path file = std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "characters" / "hip-hull" /
+                                     "hip-hull.character.json";
+  const auto store = read_hull_store(hull_store_of(file));
+  ASSERT_TRUE(store.ok()) << to_text(store.diagnostics());
+  const auto character = load_character(
+      file, {.data_folder = test::data_folder(), .fit = FitMode::kNone, .hulls = HullMode::kNone, .bone_fields = false});
+  ASSERT_TRUE(character.ok()) << to_text(character.diagnostics());
+  ASSERT_EQ((*character)->surface_descriptions.size(), store->size());
+  for (const SurfaceMuscleDescription& muscle : (*character)->surface_descriptions) {
+    const StoredHull& stored = store->at(muscle.name);
+    EXPECT_EQ(stored.inputs, hull_inputs(muscle.mesh, hull_target(muscle))) << muscle.name;
+    const auto hull = build_progressive_hull(muscle.mesh, hull_target(muscle));
+    ASSERT_TRUE(hull.ok());
+    EXPECT_EQ(stored.hull.mesh.positions, hull->mesh.positions) << muscle.name;
+    EXPECT_EQ(stored.hull.mesh.indices, hull->mesh.indices) << muscle.name;
+  }
 }
 
 }  // namespace
