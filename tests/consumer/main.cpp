@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -65,6 +67,54 @@ bool finite(const muscle::MuscleSurfaceView& surface) {
   return std::all_of(surface.vertices.begin(), surface.vertices.end(), [](const muscle::SurfaceVertex& vertex) {
     return std::isfinite(vertex.position.x) && std::isfinite(vertex.position.y) && std::isfinite(vertex.position.z);
   });
+}
+
+// A muscle that is a mesh, posed by a coarse hull without the schedule.
+void check_posed_mesh(ecs::World& world) {
+  muscle::SurfaceMuscleDescription belly;
+  belly.name = "belly";
+  constexpr std::uint32_t kLayers = 6;
+  for (std::uint32_t layer = 0; layer <= kLayers; ++layer) {
+    const float y = 0.02f * static_cast<float>(layer);
+    for (const auto& [x, z] : {std::pair(1, 1), std::pair(1, -1), std::pair(-1, -1), std::pair(-1, 1)}) {
+      belly.mesh.positions.push_back({0.015f * static_cast<float>(x), y, 0.015f * static_cast<float>(z)});
+    }
+  }
+  auto& indices = belly.mesh.indices;
+  for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = 4 * layer + i, b = 4 * layer + (i + 1) % 4;
+      indices.insert(indices.end(), {a, b, b + 4, a, b + 4, a + 4});
+    }
+  }
+  const std::uint32_t top = 4 * kLayers;
+  indices.insert(indices.end(), {3, 2, 1, 3, 1, 0, top, top + 1, top + 2, top, top + 2, top + 3});
+  belly.attachments = {{.bone = 0, .origin = true, .vertices = {0, 1, 2, 3}},
+                       {.bone = 1, .origin = false, .vertices = {top, top + 1, top + 2, top + 3}}};
+  belly.action_line = {{.bone = 0, .position = {0.0f, 0.0f, 0.0f}}, {.bone = 1, .position = {0.0f, 0.12f, 0.0f}}};
+  belly.levels = {{.solver = muscle::SurfaceSolver::kCoarseHull}};
+  const std::vector<glm::mat4> rest(2, glm::mat4(1.0f));
+  const auto surface = muscle::build_surface_asset(belly, 2);
+  const auto hull = muscle::build_progressive_hull(belly.mesh, {.vertices = 20});
+  check(surface.ok() && hull.ok(), "a mesh muscle and its hull are built");
+  if (!surface || !hull) return;
+  const auto posed = muscle::build_hull_asset(**surface, belly, hull->mesh);
+  if (!posed) std::fputs(to_text(posed.diagnostics()).c_str(), stderr);
+  check(posed.ok(), "the hull is ready for its solver");
+  if (!posed) return;
+  const ecs::Entity character = world.create();
+  world.add(character, BoneMatrices{rest, 0});
+  const ecs::Entity entity = muscle::spawn_surface_muscle(world, character, *surface, rest, {});
+  muscle::add_hull(world, entity, *posed);
+  world.get<BoneMatrices>(character).world[1] = glm::rotate(glm::mat4(1.0f), 0.5f, {1.0f, 0.0f, 0.0f});
+  check(muscle::pose_now(world, entity), "it is posed without a step");
+  bool sound = true;
+  for (const auto& vertex : world.get<muscle::DrawnSurface>(entity).vertices) {
+    sound = sound && glm::length(vertex.position) < 0.2f;
+  }
+  check(sound && world.get<muscle::SurfaceState>(entity).fallbacks == 0, "its vertices are where they may be");
+  muscle::despawn_surface_muscle(world, entity);
+  world.destroy(character);
 }
 
 }  // namespace
@@ -150,6 +200,7 @@ int main() {
   check(finite(muscle::surface_of(world, muscle::muscle_entity(world, second, "vastus"))),
         "a musculature whose character is gone keeps its last shape");
   muscle::despawn_musculature(world, second);
+  check_posed_mesh(world);
   schedule.run(world, workers);
   check(world.entity_count() == 1, "nothing is left but the first leg");
   return failures;

@@ -435,7 +435,7 @@ TEST(PoseSurfaceMuscles, TheHashTellsBlendsApart) {
   EXPECT_NE(hash_surface_state(w.world), before);
 }
 
-TEST(PoseSurfaceMuscles, DISABLED_NothingIsAllocated) {
+TEST(PoseSurfaceMuscles, NothingIsAllocated) {
   const auto field = test::box_bone({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, -0.0405f}, 0.002f);
   SurfaceMuscleDescription description = ball_with_line();
   description.bones = {0};
