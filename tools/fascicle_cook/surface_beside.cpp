@@ -1,5 +1,6 @@
 #include "tools/fascicle_cook/surface_beside.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include "engine/animation/joint_model.hpp"
@@ -38,6 +39,21 @@ Result<std::shared_ptr<const muscle::SceneAsset>> scene_beside(const muscle::Sce
     placed.animation = {.clip = nullptr, .motion = std::move(shared), .speed = 1.0f, .phase = phase};
   }
   return std::shared_ptr<const muscle::SceneAsset>(std::move(beside));
+}
+
+std::uint64_t steps_to_peak(const muscle::SceneAsset& beside) {
+  double furthest = 0.0, when = 0.0;  // s since the record's start
+  for (const muscle::SceneCharacter& placed : beside.characters) {
+    if (placed.animation.motion == nullptr) continue;
+    const Motion& motion = *placed.animation.motion;
+    for (std::size_t i = 0; i < motion.values.size(); ++i) {
+      const double change = std::abs(motion.values[i] - motion.values[i % motion.coordinates]);
+      if (change <= furthest) continue;
+      furthest = change;
+      when = motion.times[i / motion.coordinates] - motion.times.front();
+    }
+  }
+  return static_cast<std::uint64_t>(std::lround(when * static_cast<double>(beside.step_hz))) + 1;
 }
 
 }  // namespace fascicle::cook

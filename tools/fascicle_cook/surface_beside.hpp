@@ -2,6 +2,7 @@
 // know no poses, only ways to them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -14,5 +15,8 @@ namespace fascicle::cook {
 // begun so that the first step shows the record's first pose.
 Result<std::shared_ptr<const muscle::SceneAsset>> scene_beside(const muscle::SceneAsset& scene,
                                                                const std::string& motion);
+
+// Steps of such a scene until the coordinates are furthest from where they were at the first.
+std::uint64_t steps_to_peak(const muscle::SceneAsset& beside);
 
 }  // namespace fascicle::cook

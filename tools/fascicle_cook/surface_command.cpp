@@ -8,13 +8,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "engine/animation/motion.hpp"
 #include "engine/content/file_text.hpp"
 #include "modules/muscle/content/find_content.hpp"
 #include "tools/fascicle_cook/commands.hpp"
 #include "tools/fascicle_cook/find_character.hpp"
 #include "tools/fascicle_cook/surface_beside.hpp"
 #include "tools/fascicle_cook/surface_checks.hpp"
+#include "tools/fascicle_cook/surface_picture.hpp"
 #include "tools/fascicle_cook/surface_plots.hpp"
 #include "tools/fascicle_cook/surface_pose_report.hpp"
 #include "tools/fascicle_cook/surface_report.hpp"
@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string scene, csv, plots, beside, solver = "on";
+  std::string scene, csv, plots, beside, picture, solver = "on";
   std::vector<std::string> without;
   std::uint64_t frames = 0;
   int threads = 1;
@@ -95,16 +95,38 @@ void print_halved(const std::shared_ptr<const muscle::SceneAsset>& scene, const 
   }
 }
 
-// The same muscles by dynamics, through the motion that was asked for; nothing where none was.
-Result<SurfaceRun> run_beside(const muscle::SceneAsset& scene, const Options& options) {
-  if (options.beside.empty()) return SurfaceRun{};
-  const auto beside = scene_beside(scene, options.beside);
-  if (!beside) return beside.diagnostics();
-  SurfaceRunOptions run{.workers = options.threads, .keep_poses = true};
+// The same muscles by dynamics, through the motion that was asked for.
+struct Beside {
+  std::shared_ptr<const muscle::SceneAsset> scene;  // null: none was
+  SurfaceRun run;
+};
+
+Result<Beside> run_beside(const muscle::SceneAsset& scene, const Options& options) {
+  if (options.beside.empty()) return Beside{};
+  const auto changed = scene_beside(scene, options.beside);
+  if (!changed) return changed.diagnostics();
+  SurfaceRunOptions run;
+  run.frames = steps_to_peak(**changed);
+  run.workers = options.threads;
   run.forced = muscle::SurfaceSolver::kDynamic;
-  const Motion& motion = *(*beside)->characters.front().animation.motion;
-  run.frames = static_cast<std::uint64_t>(motion.cycle.length() * static_cast<double>(scene.step_hz)) + 1;
-  return run_surfaces(*beside, run);
+  run.keep_poses = true;
+  return Beside{*changed, run_surfaces(*changed, run)};
+}
+
+// Poses of the first muscle that its hull posed.
+bool write_picture(const std::shared_ptr<const muscle::SceneAsset>& scene, const SurfaceRun& run, const Beside& beside,
+                   const fs::path& file) {
+  BesidePicture picture;
+  picture.scene = scene;
+  picture.beside = beside.scene;
+  picture.options = run.options;
+  picture.beside_options = beside.run.options;
+  for (std::size_t m = 0; m < run.muscles.size() && picture.pairs.empty(); ++m) {
+    picture.pairs = spread_pairs(pair_poses(run.muscles[m], beside.run.muscles[m]));
+  }
+  const Diagnostics drawn = draw_beside(picture, file);
+  print_diagnostics(drawn);
+  return drawn.ok();
 }
 
 // Figures and checks of one muscle; whether all have passed.
@@ -136,13 +158,14 @@ int surface(const Options& options) {
   }
   bool passed = true;
   for (std::size_t m = 0; m < run.muscles.size(); ++m) {
-    const SurfaceMuscleRun* smooth = m < beside->muscles.size() ? &beside->muscles[m] : nullptr;
+    const SurfaceMuscleRun* smooth = m < beside->run.muscles.size() ? &beside->run.muscles[m] : nullptr;
     passed &= print_muscle(run, run.muscles[m], smooth);
   }
   if (options.halve) print_halved(*scene, run);
   bool written = true;
   if (!options.csv.empty()) written &= write_tables(run, options.csv);
   if (!options.plots.empty()) written &= write_plots(run, options.plots);
+  if (!options.picture.empty()) written &= write_picture(*scene, run, *beside, options.picture);
   return passed && written ? kFine : kErrors;
 }
 
@@ -164,9 +187,11 @@ void add_surface(CLI::App& program, Command& chosen) {
   command->add_option("--without", options->without, "Switch parts of the solver off: edges, angles, volume, bones, direction")
       ->delimiter(',')
       ->check(CLI::IsMember({"edges", "angles", "volume", "bones", "direction"}));
-  command->add_option("--beside", options->beside,
+  CLI::Option* beside = command->add_option("--beside", options->beside,
                       "Compare poses with dynamics, played through this motion (hip-flexion, or a file): on the way to\n"
                       "its largest angle, which they reach smoothly");
+  command->add_option("--picture", options->picture, "Write a PNG of some poses by both solvers, from three sides")
+      ->needs(beside);
   command->add_flag("--halve", options->halve, "Compare the shape at step 100 with that of half the substep");
   command->add_option("--threads", options->threads, "Workers (1; 0: one for each core)")->check(CLI::Range(0, 256));
   command->footer("Exit status 1, too, where a check fails.");

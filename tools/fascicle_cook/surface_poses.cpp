@@ -7,6 +7,16 @@
 #include <glm/geometric.hpp>
 
 namespace fascicle::cook {
+namespace {
+
+void add(double difference, std::uint64_t step, Repeats& repeats) {
+  ++repeats.count;
+  if (std::isnan(repeats.largest) || (repeats.step != 0 && difference <= repeats.largest)) return;
+  repeats.largest = difference;
+  repeats.step = step;
+}
+
+}  // namespace
 
 double poses_apart(const SurfacePose& one, const SurfacePose& other) {
   if (one.bones.size() != other.bones.size()) return std::numeric_limits<double>::infinity();
@@ -50,17 +60,6 @@ std::vector<std::vector<std::uint64_t>> posed_steps(const SurfaceMuscleRun& run)
   });
   return poses;
 }
-
-namespace {
-
-void add(double difference, std::uint64_t step, Repeats& repeats) {
-  ++repeats.count;
-  if (std::isnan(repeats.largest) || (repeats.step != 0 && difference <= repeats.largest)) return;
-  repeats.largest = difference;
-  repeats.step = step;
-}
-
-}  // namespace
 
 Repeats compare_repeats(const SurfaceMuscleRun& run) {
   Repeats repeats;

@@ -23,6 +23,8 @@ TEST_F(SurfaceCommand, WrongUsage) {
   EXPECT_EQ(run("box --solver maybe"), 2);
   EXPECT_THAT(err(), HasSubstr("maybe"));
   EXPECT_EQ(run("box --without gravity"), 2);
+  EXPECT_EQ(run("box --picture picture.png"), 2);  // of what beside it?
+  EXPECT_THAT(err(), HasSubstr("--beside"));
 }
 
 TEST_F(SurfaceCommand, ScenesThatAreNotThereOrHaveNone) {
