@@ -39,7 +39,6 @@ void lay_out(const SurfaceAsset& surface, const HullAsset& hull, HullScratch& sc
   scratch.columns.resize(3 * hull.shape.clusters);
   scratch.sample_gradient.resize(samples);
   scratch.turn_inverse.resize(hull.shape.clusters);
-  scratch.multipliers.reserve(kMostRows);
   scratch.brought.resize(vertices);
   scratch.bent.resize(vertices);
   scratch.gradient.resize(vertices);

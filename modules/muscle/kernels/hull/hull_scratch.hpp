@@ -55,7 +55,6 @@ struct HullScratch {
   AlignedVector<SurfacePoint> volume_row, volume_solution;  // J_0, A^-1 J_0^T
   AlignedVector<SurfacePoint> sample_gradient;              // m^2, by sample
   std::vector<std::array<float, 6>> turn_inverse;           // by cluster: see newton_step.hpp
-  std::vector<double> multipliers;        // by row, of the last iteration
   // Of the full mesh, by vertex.
   AlignedVector<SurfacePoint> brought;    // m: where the hull brought it
   AlignedVector<SurfacePoint> bent;       // 1/m: R_i d_0i - d_i
