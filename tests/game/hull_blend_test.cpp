@@ -1,5 +1,5 @@
-// The hip's muscles change their solver while the femur moves, measured by code of its own: what is blended stays out of
-// the bone, keeps its volume and goes no further in a step than the fade allows.
+// The hip's muscles change their solver while the femur moves, measured by code of its own: what is blended stays out
+// of the bone, keeps its volume and goes no further in a step than the fade allows.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
