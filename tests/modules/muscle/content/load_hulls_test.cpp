@@ -255,6 +255,32 @@ TEST_F(LoadHulls, AHullThatNeedsMoreVerticesThanAskedForIsToldAtItsMuscle) {
   expect_told();
 }
 
+// Near by dynamic, further away posed by hulls that are stored. It needs no data, so a change to the way hulls are made
+// is noticed everywhere.
+TEST(WalkerHulls, AreStoredAsTheyWouldBeMadeNow) {
+  const std::filesystem::path file = std::filesystem::path(FASCICLE_SOURCE_DIR) /
+                                     "content/characters/walker-surface/walker-surface.character.json";
+  const auto loaded = load_character(file, {.fit = FitMode::kNone, .hulls = HullMode::kNone, .bone_fields = false});
+  ASSERT_TRUE(loaded.ok()) << to_text(loaded.diagnostics());
+  const auto store = read_hull_store(hull_store_of(file));
+  ASSERT_TRUE(store.ok()) << to_text(store.diagnostics());
+  std::size_t hulls = 0;
+  for (const SurfaceMuscleDescription& muscle : (*loaded)->surface_descriptions) {
+    EXPECT_EQ(muscle.levels.front().solver, SurfaceSolver::kDynamic);
+    if (!uses_hull(muscle)) continue;
+    ++hulls;
+    ASSERT_TRUE(store->contains(muscle.name)) << muscle.name;
+    const StoredHull& stored = store->at(muscle.name);
+    EXPECT_EQ(stored.inputs, hull_inputs(muscle.mesh, hull_target(muscle))) << muscle.name;
+    const auto made = build_progressive_hull(muscle.mesh, hull_target(muscle));
+    ASSERT_TRUE(made.ok()) << to_text(made.diagnostics());
+    EXPECT_EQ(stored.hull.mesh.positions, made->mesh.positions) << muscle.name;
+    EXPECT_EQ(stored.hull.mesh.indices, made->mesh.indices) << muscle.name;
+  }
+  EXPECT_EQ(hulls, 4u);
+  EXPECT_EQ(store->size(), hulls);
+}
+
 TEST_F(LoadHulls, AHullThatNeedsMoreThanTheSolverTakesIsAnError) {
   const glm::mat4 upright = glm::rotate(glm::mat4(1.0f), -1.5707963f, {1.0f, 0.0f, 0.0f});
   TriangleMesh fine = test::moved(test::make_sphere(100.0f, 45, 60),
