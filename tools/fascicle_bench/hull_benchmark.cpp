@@ -5,11 +5,14 @@
 //   mean_value_coordinates/MUSCLE/VERTICES  all of the mesh's vertices by the hull's, once at load, one thread
 //   coarse_hull/MUSCLE/VERTICES/LEVEL       a pose, one thread, without iterations on the full mesh
 //   coarse_hull_refined/MUSCLE/...          a pose with the iterations on the full mesh that content asks for
+//   full_mesh_reference/MUSCLE              some of these poses solved on the full mesh throughout (pose_reference.hpp)
 //
 // All are timed by the processor time of one thread. Of the poses, `iterations` is the mean and `converged` the part
-// that came within the tolerance, `volume_error` the worst. M_weights counts millions a second; GFMA, L2_GB and L3_GB
-// are what the machine can do at most, by the same clock (machine_rates.hpp): each product with the whole matrix of
-// weights reads vertices x hull vertices x 4 bytes.
+// that came within the tolerance, `volume_error` the worst, and ms_worst the slowest. In the reference's poses, speedup
+// is its time by theirs, and mm_off and mm_off_worst are how far vertices are from its places, in the mean and at most
+// (bones are met in another way there, too). M_weights counts millions a second; GFMA, L2_GB and L3_GB are what the
+// machine can do at most, by the same clock (machine_rates.hpp): each product with the whole matrix of weights reads
+// vertices x hull vertices x 4 bytes.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -25,6 +28,7 @@
 #include "game/simulation.hpp"
 #include "modules/muscle/asset/hull/hull_asset.hpp"
 #include "modules/muscle/asset/hull/mean_value_coordinates.hpp"
+#include "modules/muscle/asset/hull/pose_reference.hpp"
 #include "modules/muscle/asset/hull/progressive_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/content/find_content.hpp"
@@ -37,6 +41,7 @@ namespace {
 using namespace fascicle;
 using namespace fascicle::muscle;
 
+constexpr std::size_t kReferencePoses = 6;
 constexpr const char* kNoData = "the scene or the real data is not there";
 
 // A muscle, and where everything that it depends on is in the poses of the scene, in the scene's order.
@@ -130,6 +135,18 @@ class Poser {
   }
 
   HullPose pose(std::size_t index, std::uint32_t refinements) {
+    HullSettings settings = hull_->settings;
+    settings.refinements = refinements;
+    return pose_surface(step_of(index), *hull_, hull_kernels(level_), settings, line_, scratch_);
+  }
+  HullPose pose(std::size_t index, const PoseReference& reference) {
+    return reference.pose(step_of(index), hull_->settings, line_);
+  }
+
+  const AlignedVector<SurfacePoint>& points() const { return points_; }
+
+ private:
+  SurfaceStep step_of(std::size_t index) {
     const PosedMuscle::Pose& at = muscle_->poses[index];
     for (std::size_t i = 0; i < line_.size(); ++i) {
       const HullLinePoint& point = hull_->line[i];
@@ -137,17 +154,12 @@ class Poser {
                                                  : at.carriers[point.carrier].to;
       line_[i] = glm::vec3(carried * glm::vec4(point.rest, 1.0f));
     }
-    HullSettings settings = hull_->settings;
-    settings.refinements = refinements;
-    const SurfaceStep step{.asset = muscle_->asset.get(), .kernels = &surface_kernels(level_),
-                           .settings = muscle_->settings, .step = 1.0f / muscle_->scene->step_hz,
-                           .attachments = at.attachments, .carriers = at.carriers, .bones = at.bones,
-                           .fields = muscle_->fields, .rest_to_bone = muscle_->rest_to_bone, .points = points_,
-                           .velocity = velocity_};
-    return pose_surface(step, *hull_, hull_kernels(level_), settings, line_, scratch_);
+    return {.asset = muscle_->asset.get(), .kernels = &surface_kernels(level_), .settings = muscle_->settings,
+            .step = 1.0f / muscle_->scene->step_hz, .attachments = at.attachments, .carriers = at.carriers,
+            .bones = at.bones, .fields = muscle_->fields, .rest_to_bone = muscle_->rest_to_bone, .points = points_,
+            .velocity = velocity_};
   }
 
- private:
   const PosedMuscle* muscle_;
   const HullAsset* hull_;
   SimdLevel level_;
@@ -155,6 +167,79 @@ class Poser {
   AlignedVector<SurfacePoint> points_, velocity_;
   std::vector<glm::vec3> line_;
 };
+
+// Some poses by the reference, timed and kept.
+struct Reference {
+  struct Pose {
+    std::size_t index = 0;
+    double ms = 0.0;
+    HullPose pose;
+    AlignedVector<SurfacePoint> points;
+  };
+  std::vector<Pose> poses;
+};
+
+const Reference& reference_of(const std::string& name) {
+  static std::map<std::string, Reference> references;
+  const auto [found, added] = references.try_emplace(name);
+  const PosedMuscle& muscle = posed_muscle(name);
+  const auto hull = hull_asset(name, 300);  // its settings and its line count
+  if (!added || !hull) return found->second;
+  const PoseReference reference(*muscle.asset, *hull);
+  Poser poser(muscle, *hull, detect_simd());
+  for (std::size_t i = 0; i < kReferencePoses; ++i) {
+    const std::size_t index = i * (muscle.poses.size() / kReferencePoses);
+    const std::clock_t start = std::clock();
+    const HullPose pose = poser.pose(index, reference);
+    const double ms = 1.0e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    found->second.poses.push_back({index, ms, pose, poser.points()});
+  }
+  return found->second;
+}
+
+void full_mesh(benchmark::State& state, const std::string& name) {
+  if (!posed_muscle(name).scene) return state.SkipWithError(kNoData);
+  const Reference& reference = reference_of(name);
+  if (reference.poses.empty()) return state.SkipWithError("no hull could be made");
+  double iterations = 0.0, converged = 0.0, volume_error = 0.0;
+  std::size_t i = 0;
+  for (auto _ : state) {  // solved once, whoever asks first
+    const Reference::Pose& pose = reference.poses[i++ % reference.poses.size()];
+    state.SetIterationTime(1.0e-3 * pose.ms);
+    iterations += pose.pose.iterations;
+    converged += pose.pose.converged ? 1.0 : 0.0;
+    volume_error = std::max(volume_error, std::abs(pose.pose.volume / posed_muscle(name).asset->volume - 1.0));
+  }
+  state.counters["poses"] = benchmark::Counter(static_cast<double>(i), benchmark::Counter::kIsRate);
+  state.counters["iterations"] = iterations / static_cast<double>(i);
+  state.counters["converged"] = converged / static_cast<double>(i);
+  state.counters["volume_error"] = volume_error;
+}
+
+// How much faster than the reference `poser` takes its poses, and how far from its places it ends.
+void compare(benchmark::State& state, const Reference& reference, Poser& poser, std::uint32_t refinements,
+             std::uint32_t vertices) {
+  double ms = 0.0, reference_ms = 0.0, worst = 0.0, sum = 0.0;
+  std::size_t count = 0;
+  for (const Reference::Pose& wanted : reference.poses) {
+    const std::clock_t start = std::clock();
+    poser.pose(wanted.index, refinements);
+    ms += 1.0e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    reference_ms += wanted.ms;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const SurfacePoint &a = poser.points()[v], &b = wanted.points[v];
+      const double off = 1.0e3 * std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
+                                            static_cast<double>(a.y) - static_cast<double>(b.y),
+                                            static_cast<double>(a.z) - static_cast<double>(b.z));
+      worst = std::max(worst, off);
+      sum += off;
+      ++count;
+    }
+  }
+  state.counters["speedup"] = reference_ms / ms;
+  state.counters["mm_off"] = sum / static_cast<double>(count);
+  state.counters["mm_off_worst"] = worst;
+}
 
 void progressive_hull(benchmark::State& state, const std::string& name, std::uint32_t vertices) {
   const PosedMuscle& muscle = posed_muscle(name);
@@ -214,6 +299,8 @@ void poses(benchmark::State& state, const std::string& name, std::uint32_t verti
       volume_error = std::max(volume_error, std::abs(pose.volume / muscle.asset->volume - 1.0));
     }
   });
+  compare(state, reference_of(name), poser, refinements, muscle.asset->vertex_count);
+  state.counters["ms_worst"] = *std::max_element(times.begin(), times.end());
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::nth_element(times.begin(), middle, times.end());
   const double count = static_cast<double>(times.size());
@@ -237,6 +324,8 @@ void add_all() {
       benchmark::RegisterBenchmark(("mean_value_coordinates" + at + std::to_string(vertices)).c_str(), coordinates,
                                    muscle, vertices)->UseManualTime()->Unit(benchmark::kMillisecond);
     }
+    benchmark::RegisterBenchmark(("full_mesh_reference/" + std::string(label(muscle))).c_str(), full_mesh, muscle)
+        ->UseManualTime()->Iterations(kReferencePoses)->Unit(benchmark::kMillisecond);
     const auto add = [&](bool refined, std::uint32_t vertices, SimdLevel level) {
       const std::string name = (refined ? "coarse_hull_refined" : "coarse_hull") + at + std::to_string(vertices) + "/" +
                                std::string(to_string(level));
