@@ -198,7 +198,8 @@ HullStore load_hulls(const MuscleChain& chain, const CharacterAsset& asset, Cont
   for (std::size_t i = 0; i < chain.files().size(); ++i) {
     const fs::path& file = chain.path(i);
     store.merge(load_store(hull_store_of(file), read_hull_store, "hulls",
-                           "they are made at load; run fascicle-cook hull --store " + file.string(), sources, diagnostics));
+                           "they are made at load; run fascicle-cook hull --store " + file.string(), sources,
+                           diagnostics));
   }
   return store;
 }

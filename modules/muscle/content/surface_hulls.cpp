@@ -35,19 +35,12 @@ Diagnostics judge(const SurfaceMuscleDescription& muscle, const ProgressiveHull&
         bounded ? "give a larger \"error_mm\"" : "smooth the mesh, or give \"solver\": \"dynamic\""));
   } else {
     found.warnings.push_back(fault_of(
-        muscle, "hull", fmt::format("{} needs {} vertices, more than the {} asked for", which, vertices, asked.vertices),
+        muscle, "hull",
+        fmt::format("{} needs {} vertices, more than the {} asked for", which, vertices, asked.vertices),
         bounded ? "ask for more \"vertices\", or give a larger \"error_mm\""
                 : fmt::format("ask for {} \"vertices\" or more", vertices)));
   }
   return found;
-}
-
-// The builder knows neither the muscle nor its file.
-void place_at(const SurfaceMuscleDescription& muscle, Diagnostics& found) {
-  const auto place = [&](Diagnostic& one) {
-    one = fault_of(muscle, "hull", std::move(one.cause), std::move(one.remedy));
-  };
-  std::ranges::for_each(found.errors, place);
 }
 
 // From the store, or made; empty, with an error, where there is none to work with.
@@ -61,8 +54,9 @@ std::optional<ProgressiveHull> find_hull(const SurfaceMuscleDescription& muscle,
   } else {
     auto built = build_progressive_hull(muscle.mesh, target);
     if (!built) {
-      place_at(muscle, built.diagnostics());
-      diagnostics.append(std::move(built.diagnostics()));
+      for (Diagnostic& fault : built.diagnostics().errors) {  // it knows neither the muscle nor its file
+        diagnostics.errors.push_back(fault_of(muscle, "hull", std::move(fault.cause), std::move(fault.remedy)));
+      }
       return std::nullopt;
     }
     hull = std::move(*built);

@@ -1,5 +1,5 @@
-// How a surface muscle of a character file is solved: which solver at which size in the picture, its coarse hull and its
-// line. Ranges: surface_limits.hpp.
+// How a surface muscle of a character file is solved: which solver at which size in the picture, its coarse hull and
+// its line. Ranges: surface_limits.hpp.
 
 #include <fmt/format.h>
 

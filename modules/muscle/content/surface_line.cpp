@@ -40,10 +40,11 @@ void place_action_line(const SurfaceMuscleEntry& entry, const SurfaceMesh& mesh,
   if (nearest > kReach * box.diagonal()) {
     entry.action_line_node.error(
         diagnostics, fmt::format("the line is {:.4g} mm away from the muscle", 1000.0f * nearest),
-        "a point's \"at\" is in the mesh file's own coordinates and unit, or with \"space\": \"character\" in metres in "
-        "the character's rest space");
+        "a point's \"at\" is in the mesh file's own coordinates and unit, or with \"space\": \"character\" in metres "
+        "in the character's rest space");
   } else if (length < static_cast<double>(kShortestLine)) {
-    entry.action_line_node.error(diagnostics, fmt::format("the line is {:.3g} mm long, and has no direction", 1000.0 * length),
+    entry.action_line_node.error(diagnostics,
+                                 fmt::format("the line is {:.3g} mm long, and has no direction", 1000.0 * length),
                                  "lead it from the middle of the origin to that of the insertion");
   }
 }

@@ -288,7 +288,8 @@ TEST_F(LoadHulls, AHullThatNeedsMoreThanTheSolverTakesIsAnError) {
   folder.write("fine.obj", test::as_obj(fine));
   ASSERT_GT(fine.positions.size(), 2000u);
   const std::string text = hulled_limb(R"({ "error_mm": 0.001 })");
-  const auto refused = load_character(test::write_limb(folder, with(text, "ball.obj", "fine.obj")), {.bone_fields = false});
+  const auto refused =
+      load_character(test::write_limb(folder, with(text, "ball.obj", "fine.obj")), {.bone_fields = false});
   ASSERT_FALSE(refused.ok());
   ASSERT_EQ(refused.diagnostics().errors.size(), 1u) << to_text(refused.diagnostics());
   const Diagnostic& error = refused.diagnostics().errors[0];

@@ -184,7 +184,9 @@ TEST(SurfaceScenes, HipHullIsTheTwoHipsWithHulls) {
     EXPECT_EQ(muscle.file_vertex, same.file_vertex);
     EXPECT_EQ(muscle.volume, same.volume);
     ASSERT_EQ(muscle.attached.size(), same.attached.size());
-    for (std::size_t v = 0; v < same.attached.size(); ++v) ASSERT_EQ(muscle.attached[v].vertex, same.attached[v].vertex);
+    for (std::size_t v = 0; v < same.attached.size(); ++v) {
+      ASSERT_EQ(muscle.attached[v].vertex, same.attached[v].vertex);
+    }
     EXPECT_EQ(muscle.frame_bone, same.frame_bone);
     EXPECT_EQ(muscle.bones, same.bones);
     EXPECT_EQ(muscle.fibres.size(), same.fibres.size());
