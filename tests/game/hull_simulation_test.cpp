@@ -1,18 +1,22 @@
 // Surface muscles with coarse hulls in a running scene: as content says, as the command line wants, and while their
 // files are edited.
 #include <array>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "engine/animation/joint_systems.hpp"
+#include "engine/animation/skeleton.hpp"
 #include "game/simulation.hpp"
 #include "modules/muscle/components/surface_hull.hpp"
 #include "modules/muscle/components/surface_muscle.hpp"
 #include "modules/muscle/content/content_reloader.hpp"
 #include "modules/muscle/muscle.hpp"
 #include "tests/modules/muscle/content/scratch_surfaces.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 namespace fascicle::game {
 namespace {
@@ -128,6 +132,71 @@ TEST_F(HullSimulation, LiveReloadKeepsRunning) {
   bend(simulation, 0.6, 3);
   EXPECT_FALSE(simulation.world().has<SurfaceHull>(ball(simulation)));
   EXPECT_EQ(simulation.world().get<SurfaceState>(ball(simulation)).fallbacks, 0u);
+}
+
+// The walker's driven meshes, some of which have levels: looked at from near, from far and from near again.
+class WalkerFromAfar : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const auto file = std::filesystem::path(FASCICLE_SOURCE_DIR) / "content" / "scenes" / "walker-surface.scene.json";
+    const auto scene = muscle::load_scene(file);
+    ASSERT_TRUE(scene.ok()) << to_text(scene.diagnostics());
+    scene_ = *scene;
+  }
+  static void TearDownTestSuite() { scene_.reset(); }
+
+  static void look_from(Simulation& simulation, float distance) {
+    const auto& bones = simulation.world().get<BoneMatrices>(simulation.characters().at(0).entity).world;
+    simulation.set_viewer({.enabled = true, .eye = glm::vec3(bones[1][3]) + glm::vec3(distance, 0.0f, 0.0f),
+                           .pixels_per_radian = 1000.0f});
+  }
+  // 6 steps each at 1 m, 15 m and 1 m.
+  static float distance_at(int step) { return step < 6 || step >= 12 ? 1.0f : 15.0f; }
+
+  static std::shared_ptr<const muscle::SceneAsset> scene_;
+};
+std::shared_ptr<const muscle::SceneAsset> WalkerFromAfar::scene_;
+
+TEST_F(WalkerFromAfar, HullsPoseWhatIsSmallAndDynamicsGoOn) {
+  ASSERT_TRUE(scene_);
+  Simulation simulation(scene_, {.workers = 1});
+  std::size_t hulled = 0;
+  for (int step = 0; step < 18; ++step) {
+    look_from(simulation, distance_at(step));
+    simulation.step();
+    hulled = 0;
+    for (const ecs::Entity entity : simulation.characters()[0].surfaces) {
+      const auto& state = simulation.world().get<SurfaceState>(entity);
+      EXPECT_EQ(state.fallbacks, 0u);
+      EXPECT_NEAR(state.volume / simulation.world().get<muscle::SurfaceMuscle>(entity).asset->volume, 1.0, 0.01);
+      const SurfaceHull* hull = simulation.world().try_get<SurfaceHull>(entity);
+      if (hull == nullptr) continue;
+      ++hulled;
+      EXPECT_EQ(hull->solver, distance_at(step) > 2.0f ? SurfaceSolver::kCoarseHull : SurfaceSolver::kDynamic) << step;
+    }
+  }
+  ASSERT_GT(hulled, 0u);
+  for (const ecs::Entity entity : simulation.characters()[0].surfaces) {
+    const SurfaceHull* hull = simulation.world().try_get<SurfaceHull>(entity);
+    if (hull != nullptr) {
+      EXPECT_EQ(hull->switches, 2u);
+    }
+  }
+}
+
+TEST_F(WalkerFromAfar, ChangesOfSolverAreTheSameForAnyThreadsAndAllocateNothing) {
+  ASSERT_TRUE(scene_);
+  Simulation one(scene_, {.workers = 1}), three(scene_, {.workers = 3});
+  for (int step = 0; step < 18; ++step) {
+    for (Simulation* simulation : {&one, &three}) look_from(*simulation, distance_at(step));
+    three.step();
+    const test::AllocationScope count;
+    one.step();
+    if (step >= 3) {
+      EXPECT_EQ(count.allocations(), 0u) << step;
+    }
+    EXPECT_EQ(one.hash(), three.hash()) << step;
+  }
 }
 
 }  // namespace
