@@ -49,7 +49,12 @@ constexpr std::size_t kResidualPoses = 6;  // from the least angle to the larges
 std::vector<Chart> residual_charts(const SurfaceMuscleRun& muscle) {
   Chart hull{.y_label = "hull: largest move / size", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
   Chart full{.y_label = "mesh: largest move / size", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
-  const std::vector<std::vector<std::uint64_t>> poses = posed_steps(muscle);
+  std::vector<std::vector<std::uint64_t>> poses = posed_steps(muscle);
+  // At rest there is nothing to do.
+  std::erase_if(poses, [&](const auto& steps) {
+    const std::vector<float>& residuals = muscle.poses[steps.front() - 1].residuals;
+    return residuals.empty() || !(residuals.front() > muscle.hull.tolerance);
+  });
   const std::size_t shown = std::min(kResidualPoses, poses.size());
   std::size_t longest = 0;
   bool any_full = false;

@@ -109,7 +109,7 @@ std::vector<PosePair> pair_poses(const SurfaceMuscleRun& posed, const SurfaceMus
 double bend_ratio(const SurfaceMuscleRun& posed, const SurfaceMuscleRun& smooth, const PosePair& pair) {
   const double bend = posed.steps[pair.step - 1].dihedral_mean, beside = smooth.steps[pair.beside - 1].dihedral_mean;
   if (!std::isfinite(bend) || !std::isfinite(beside)) return std::numeric_limits<double>::quiet_NaN();
-  return std::max(bend, kLeastBend) / std::max(beside, kLeastBend);
+  return bend <= kLeastBend ? 0.0 : bend / std::max(beside, kLeastBend);
 }
 
 }  // namespace fascicle::cook

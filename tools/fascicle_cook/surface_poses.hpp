@@ -44,7 +44,7 @@ struct PosePair {
 // One a pose, by angle. Both runs kept their poses. Poses that have none beside them are left out.
 std::vector<PosePair> pair_poses(const SurfaceMuscleRun& posed, const SurfaceMuscleRun& smooth);
 
-// The mean dihedral change to that beside it; changes below kLeastBend count as that.
+// The mean dihedral change to that beside it, which counts as kLeastBend at least. 0: the change itself is no larger.
 inline constexpr double kLeastBend = 1.0e-3;  // rad
 double bend_ratio(const SurfaceMuscleRun& posed, const SurfaceMuscleRun& smooth, const PosePair& pair);
 

@@ -84,9 +84,11 @@ TEST(PairPoses, AreOnTheSmoothRunsWayToItsLargestAngle) {
 TEST(BendRatio, CountsNoChangesThatNobodySees) {
   SurfaceMuscleRun posed = made_up_run({0.0}), smooth = made_up_run({0.0});
   const PosePair pair{.angle = 0.0, .step = 1, .beside = 1, .apart = 0.0};
-  EXPECT_EQ(bend_ratio(posed, smooth, pair), 1.0);
+  EXPECT_EQ(bend_ratio(posed, smooth, pair), 0.0);
   posed.steps[0].dihedral_mean = 0.5 * kLeastBend;
-  EXPECT_EQ(bend_ratio(posed, smooth, pair), 1.0);
+  EXPECT_EQ(bend_ratio(posed, smooth, pair), 0.0);
+  posed.steps[0].dihedral_mean = 2.0 * kLeastBend;
+  EXPECT_NEAR(bend_ratio(posed, smooth, pair), 2.0, 1e-9);
   posed.steps[0].dihedral_mean = 0.06;
   smooth.steps[0].dihedral_mean = 0.04;
   EXPECT_NEAR(bend_ratio(posed, smooth, pair), 1.5, 1e-9);
