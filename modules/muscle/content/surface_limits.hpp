@@ -30,7 +30,7 @@ inline constexpr NumberRange kAbovePixelsRange{.min = 0, .max = 100000};
 inline constexpr NumberRange kHullVerticesRange{.min = 4, .max = 2000};           // its matrices grow by their square
 inline constexpr NumberRange kHullErrorRange{.min = 0, .max = 1000};              // mm
 inline constexpr NumberRange kHullIterationsRange{.min = 1, .max = 100};
-inline constexpr NumberRange kHullToleranceRange{.min = 0, .max = 0.1};           // of the muscle's size
+inline constexpr NumberRange kHullToleranceRange{.min = 0, .max = 0.1, .above_min = true};  // of the muscle's size
 inline constexpr NumberRange kRefinementsRange{.min = 0, .max = 100};
 inline constexpr NumberRange kHullWeightRange{.min = 0, .max = 1000};             // beside the shape's, which is 1
 inline constexpr NumberRange kLinePointRange{.min = -1e6, .max = 1e6};            // in the mesh's unit, or m

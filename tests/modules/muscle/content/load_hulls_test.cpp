@@ -101,6 +101,18 @@ TEST_F(LoadHulls, OneSolverIsShortForOneLevel) {
   EXPECT_GE(limb->hulls[0]->rest.size(), 4u);
 }
 
+TEST_F(LoadHulls, SettingsAtTheirLimitsAreTaken) {
+  for (const char* hull : {R"({ "vertices": 4, "tolerance": 1e-7, "bending": 0, "direction": 0, "refinements": 0 })",
+                           R"({ "vertices": 2000, "iterations": 100, "tolerance": 0.1, "bending": 1000, "direction": 1000,
+                               "refinements": 100 })"}) {
+    const auto limb = load(hulled_limb(hull));
+    ASSERT_TRUE(limb);
+    ASSERT_TRUE(limb->hulls.at(0));
+    EXPECT_GE(limb->hulls[0]->rest.size(), 4u);
+    EXPECT_LE(limb->hulls[0]->rest.size(), 458u);  // the mesh's own
+  }
+}
+
 TEST_F(LoadHulls, LevelsAreReadFromTheFinest) {
   const auto limb = load(limb_with(std::string(R"("levels": [
       { "solver": "dynamic", "above_pixels": 200 },
