@@ -5,6 +5,9 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "modules/muscle/kernels/hull/mesh_volume.hpp"
+#include "modules/muscle/kernels/hull/vertex_curvature.hpp"
+
 namespace fascicle::muscle {
 namespace {
 
@@ -77,13 +80,15 @@ SparseFactor to_factor(const Eigen::SimplicialLLT<SparseMatrix>& solver, std::sp
 
 bool build_full_mesh(const SurfaceAsset& surface, const ShapeEnergy& energy, HullFullMesh& full) {
   list_neighbours(energy, surface.vertex_count, full);
+  full.volume = measure_volume(surface.triangles, std::span(surface.rest).first(surface.vertex_count), {});
   full.beside = find_beside(surface, full);
   full.bending = static_cast<float>(energy.beta);
   const double length = kAnchorLength * static_cast<double>(surface.size), anchor = 1.0 / (length * length);
   full.anchor = static_cast<float>(anchor);
   for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
-    const Eigen::RowVector3f curvature = energy.curvature.row(v).cast<float>();
-    full.curvature.push_back({curvature[0], curvature[1], curvature[2], static_cast<float>(1.0 / energy.mass[v])});
+    const auto inverse_mass = static_cast<float>(1.0 / energy.mass[v]);
+    const glm::vec3 curvature = vertex_curvature(full, surface.rest, v, inverse_mass);
+    full.curvature.push_back({curvature.x, curvature.y, curvature.z, inverse_mass});
   }
 
   constexpr std::uint32_t kHeld = 0xffffffffu;

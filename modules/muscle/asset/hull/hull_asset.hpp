@@ -62,6 +62,7 @@ struct HullDirection {
 // The full mesh, for the last iterations: the same energy with a rotation a vertex, attached vertices held, and a weak
 // pull to where the hull brought each vertex, so that what is decided in the large stays.
 struct HullFullMesh {
+  double volume = 0.0;                   // m^3, at rest as the solver measures it
   std::vector<std::uint32_t> first, neighbour;  // by vertex, and one more: its neighbours
   std::vector<float> weight;             // by neighbour: w_ij
   AlignedVector<SurfacePoint> curvature; // 1/m, at rest: (L V)_i / m_i; in place of a mass: 1 / m_i (1/m^2)

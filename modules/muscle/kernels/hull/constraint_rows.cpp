@@ -12,7 +12,9 @@ namespace {
 
 constexpr int kSweeps = 100;            // over the multipliers
 constexpr double kSettled = 1.0e-9;     // of the largest: a sweep that changes less is the last
-constexpr double kApart = 1.0e-6;       // contacts that the hull can hardly tell apart would push without end
+// Contacts give way by this part of what they push: those that the hull can hardly tell apart would otherwise push
+// without end, in opposite directions. What they leave is for the full mesh.
+constexpr double kGive = 1.0e-2;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -44,6 +46,7 @@ ConstraintRows::ConstraintRows(const HullProblem& problem, HullScratch& scratch)
   }
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) schur_(at(i), at(j)) *= scale_[i] * scale_[j];
+    if (!is_volume(i)) schur_(at(i), at(i)) *= 1.0 + kGive;
   }
 }
 
@@ -121,7 +124,7 @@ ActiveRows::ActiveRows(const ConstraintRows& rows, const RowValues& multipliers)
   RowMatrix schur(at(count_), at(count_));
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t j = 0; j < count_; ++j) {
-      schur(at(i), at(j)) = (i == j ? 1.0 + kApart : 1.0) * rows.schur(active_[i], active_[j]);
+      schur(at(i), at(j)) = rows.schur(active_[i], active_[j]);
     }
   }
   if (count_ > 0) solver_.compute(schur);

@@ -1,6 +1,6 @@
 // What a move of the hull has to fulfil in one iteration, linearised: J d = need for the volume, >= for contacts.
 //
-// Rows are scaled so that each has a Schur complement J A^-1 J' of 1. Internal to kernels/hull: it shows Eigen.
+// Rows are scaled so that each has a Schur complement J A^-1 J' of 1, a little more for contacts. Internal to kernels/hull: it shows Eigen.
 #pragma once
 
 #include <array>

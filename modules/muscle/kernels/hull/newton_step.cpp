@@ -117,7 +117,11 @@ void solve_step(const HullProblem& problem, const ActiveRows& active, HullScratc
 
 double furthest(HullRow moves) {
   double most = 0.0;
-  for (const SurfacePoint& move : moves) most = std::max(most, dot(move, move));
+  for (const SurfacePoint& move : moves) {
+    const double square = dot(move, move);
+    if (!std::isfinite(square)) return square;
+    most = std::max(most, square);
+  }
   return std::sqrt(most);
 }
 
@@ -173,6 +177,7 @@ void start_state(const HullProblem& problem, HullScratch& scratch) {
 
 double newton_step(const HullProblem& problem, HullScratch& scratch) {
   HullState& state = scratch.state;
+  if (!std::isfinite(state.energy)) return state.energy;
   // -g, and the move to where A alone would go.
   gather_rotations(problem, state.rotations, scratch.columns, scratch.residual);
   add(1.0, scratch.load, scratch.residual);

@@ -21,7 +21,7 @@ namespace fascicle::muscle {
 // Rotations that the carriers' motions suggest, and the hull's best places for them: where the iterations start.
 void start_state(const HullProblem& problem, HullScratch& scratch);
 
-// Moves scratch.state. Returns how far the furthest hull vertex went (m).
+// Moves scratch.state. Returns how far the furthest hull vertex went (m); not finite where the pose is not.
 double newton_step(const HullProblem& problem, HullScratch& scratch);
 
 }  // namespace fascicle::muscle

@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "modules/muscle/kernels/hull/mesh_volume.hpp"
+#include "modules/muscle/kernels/hull/vertex_curvature.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -34,26 +35,18 @@ glm::mat3 rotation_of(std::span<const MatrixPack> rotations, std::uint32_t v) {
           pack.value[7][lane], pack.value[2][lane], pack.value[5][lane], pack.value[8][lane]};
 }
 
-glm::vec3 curvature(const FullMesh& mesh, std::uint32_t v) {
-  glm::vec3 sum(0.0f);
-  for (std::uint32_t i = mesh.full.first[v]; i < mesh.full.first[v + 1]; ++i) {
-    sum += mesh.full.weight[i] * mesh.edge(v, mesh.full.neighbour[i]);
-  }
-  return mesh.full.curvature[v].inverse_mass * sum;
-}
-
-// S_i = sum w_ij/2 e e_0' + beta m_i d_i d_0i', and where the rotations start: as they were, or as the hull's.
+// S_i = sum w_ij/2 e e_0' + beta m_i d_i d_0i'. Factors come after products, so that at rest it is symmetric to the bit.
 void find_shape(const FullMesh& mesh, HullScratch& scratch) {
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
     glm::mat3 s(0.0f);
     for (std::uint32_t i = mesh.full.first[v]; i < mesh.full.first[v + 1]; ++i) {
       const std::uint32_t other = mesh.full.neighbour[i];
-      s += glm::outerProduct(0.5f * mesh.full.weight[i] * mesh.edge(v, other), mesh.rest_edge(v, other));
+      s += 0.5f * mesh.full.weight[i] * glm::outerProduct(mesh.edge(v, other), mesh.rest_edge(v, other));
     }
-    const glm::vec3 bent = curvature(mesh, v);
+    const glm::vec3 bent = vertex_curvature(mesh.full, mesh.points, v, mesh.full.curvature[v].inverse_mass);
     set(scratch.bent[v], bent);
     const SurfacePoint& rest = mesh.full.curvature[v];
-    s += glm::outerProduct(mesh.full.bending / rest.inverse_mass * bent, place(rest));
+    s += mesh.full.bending / rest.inverse_mass * glm::outerProduct(bent, place(rest));
     MatrixPack& pack = scratch.vertex_shape[v / kPanelRows];
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {
@@ -151,7 +144,7 @@ double refine_once(const HullProblem& problem, HullScratch& scratch) {
     by_move += dot(g, {x[0], x[1], x[2], 0.0f});
     by_share += dot(g, {x[3], x[4], x[5], 0.0f});
   }
-  const double lack = asset.volume - volume - by_move;
+  const double lack = mesh.full.volume - volume - by_move;
   const float share = problem.keeps_volume && by_share > 0.0 ? static_cast<float>(lack / by_share) : 0.0f;
   for (std::uint32_t i = 0; i < factor.size; ++i) {
     const std::array<float, 8>& x = scratch.columns_of_factor[i].value;
@@ -190,8 +183,8 @@ double restore_volume(const HullProblem& problem, HullScratch& scratch) {
   const SurfaceAsset& asset = *problem.step.asset;
   double volume = volume_now(problem, scratch.gradient);
   for (int i = 0; problem.keeps_volume && i < kVolumeSteps; ++i) {
-    const double lack = asset.volume - volume;
-    if (std::abs(lack) <= kVolumeAccuracy * asset.volume) break;
+    const double lack = problem.hull.full.volume - volume;
+    if (std::abs(lack) <= kVolumeAccuracy * problem.hull.full.volume) break;
     double square = 0.0;
     for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
       if (problem.step.points[v].inverse_mass > 0.0f) square += dot(scratch.gradient[v], scratch.gradient[v]);
