@@ -45,7 +45,22 @@ Chart fibre_chart(const SurfaceMuscleRun& muscle) {
 
 constexpr std::size_t kResidualPoses = 6;  // from the least angle to the largest
 
-// Of the hull, and below of the full mesh where there are any.
+constexpr std::size_t kTailIterations = 12;  // after some less single precision tells no more
+
+// Of the hull's poses that were iterated further.
+Chart tail_chart(const SurfaceMuscleRun& muscle) {
+  Chart tail{.y_label = "hull, iterated further", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
+  for (const SurfaceRevisit& visit : muscle.revisits) {
+    if (visit.how != Revisit::kIterated || visit.residuals.empty()) continue;
+    const double angle = pose_angle(*muscle.asset, muscle.poses[visit.step - 1]);
+    const std::size_t shown = std::min(kTailIterations, visit.residuals.size());
+    tail.lines.push_back({fmt::format("{:.2f} rad", angle), fibre_colour(tail.lines.size()), 1.8,
+                          {visit.residuals.begin(), visit.residuals.begin() + static_cast<std::ptrdiff_t>(shown)}});
+  }
+  return tail;
+}
+
+// Of the hull, of poses that were iterated further, and of the full mesh, where there are any.
 std::vector<Chart> residual_charts(const SurfaceMuscleRun& muscle) {
   Chart hull{.y_label = "hull: largest move / size", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
   Chart full{.y_label = "mesh: largest move / size", .lines = {}, .band = {}, .least_range = 1.0, .logarithmic = true};
@@ -72,8 +87,10 @@ std::vector<Chart> residual_charts(const SurfaceMuscleRun& muscle) {
   }
   hull.lines.push_back({"tolerance", kGrey, 1.0,
                         std::vector<double>(std::max<std::size_t>(longest, 2), static_cast<double>(muscle.hull.tolerance))});
-  if (!any_full) return {hull};
-  return {hull, full};
+  std::vector<Chart> charts = {std::move(hull)};
+  if (Chart tail = tail_chart(muscle); !tail.lines.empty()) charts.push_back(std::move(tail));
+  if (any_full) charts.push_back(std::move(full));
+  return charts;
 }
 
 }  // namespace

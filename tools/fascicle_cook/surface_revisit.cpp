@@ -37,7 +37,7 @@ void visit(const std::vector<Coordinates>& by_step, std::uint64_t step, Revisit 
     if (made.poses.size() < step || made.steps[step - 1].posed == 0.0) return;
     const ShapeDifference d = compare_shapes(*muscle.asset, made.poses[step - 1].shape,
                                              shape_of(*muscle.asset, world.get<SurfaceState>(entity)));
-    made.revisits.push_back({step, how, d.largest, d.mean});
+    made.revisits.push_back({step, how, d.largest, d.mean, world.get<SurfaceHull>(entity).scratch.residuals});
   });
 }
 

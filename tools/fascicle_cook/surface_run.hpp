@@ -80,6 +80,7 @@ struct SurfaceRevisit {
   std::uint64_t step = 0;                    // whose pose it was
   Revisit how = Revisit::kAfterOthers;
   double largest = 0.0, mean = 0.0;          // how far vertices are from where they were, of the muscle's size
+  std::vector<float> residuals = {};         // by iteration: as in HullScratch
 };
 
 inline constexpr std::uint64_t kFlexedStep = 100;  // of the published scenes: the end of the flexion

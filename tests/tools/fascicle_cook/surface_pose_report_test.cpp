@@ -37,7 +37,7 @@ std::vector<std::string> failed(const std::vector<SurfaceCheck>& checks) {
 SurfaceMuscleRun faultless() {
   SurfaceMuscleRun run = made_up_run({0.1, 0.3, 0.1, 0.2, 0.3});
   for (const Revisit how : {Revisit::kAfterOthers, Revisit::kFirst, Revisit::kIterated}) {
-    run.revisits.push_back({4, how, 0.0, 0.0});
+    run.revisits.push_back({4, how, 0.0, 0.0, {1e-2f, 1e-6f}});
   }
   return run;
 }
@@ -164,7 +164,7 @@ TEST(SurfaceResiduals, APlotWithALineAPoseAndTheTolerance) {
   ASSERT_TRUE(document.load_string(found->svg.c_str()));
   int paths = 0;
   for ([[maybe_unused]] const pugi::xml_node path : document.child("svg").children("path")) ++paths;
-  EXPECT_EQ(paths, 3 + 1 + 3);
+  EXPECT_EQ(paths, 3 + 1 + 1 + 3);
   EXPECT_THAT(found->svg, HasSubstr(">1e-4<"));
   EXPECT_THAT(found->svg, HasSubstr(">0.30 rad<"));
   EXPECT_THAT(found->svg, HasSubstr(">iteration<"));

@@ -52,7 +52,7 @@ TEST(CompareRepeats, FindsTheShapeThatDependsOnWhatCameBefore) {
   run.poses[4].shape[1].x += 0.002f;  // of a size of 0.2
   EXPECT_NEAR(compare_repeats(run).largest, 0.01, 1e-6);
   EXPECT_EQ(compare_repeats(run).step, 5u);
-  run.revisits = {{2, Revisit::kAfterOthers, 0.0, 0.0}, {6, Revisit::kFirst, 0.02, 0.0}, {1, Revisit::kIterated, 0.5, 0.0}};
+  run.revisits = {{2, Revisit::kAfterOthers, 0.0}, {6, Revisit::kFirst, 0.02}, {1, Revisit::kIterated, 0.5}};
   EXPECT_EQ(compare_repeats(run).count, 5u);
   EXPECT_EQ(compare_repeats(run).largest, 0.02);
   EXPECT_EQ(compare_repeats(run).step, 6u);
