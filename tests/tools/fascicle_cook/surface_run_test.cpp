@@ -3,6 +3,7 @@
 #include "tools/fascicle_cook/surface_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gmock/gmock.h>
 
@@ -81,6 +82,20 @@ TEST_F(RunSurfaces, ASolverThatIsOffOrFrozenHasNotConverged) {
     // The bones are where they are all the same.
     EXPECT_NEAR(pose_angle(*run.muscles[0].asset, run.muscles[0].poses[2]), 0.3, 1e-5);
   }
+}
+
+// The measure sees what the solver is there for.
+TEST_F(RunSurfaces, WithoutTheirVolumePosesLoseIt) {
+  const auto worst = [&](bool volume) {
+    SurfaceRunOptions options;
+    options.volume = volume;
+    double off = 0.0;
+    const SurfaceRun run = run_surfaces(scene, options);
+    for (const SurfaceStepFigures& step : run.muscles[0].steps) off = std::max(off, std::abs(step.volume_ratio - 1.0));
+    return off;
+  };
+  EXPECT_LT(worst(true), 1e-3);
+  EXPECT_GT(worst(false), 5e-3);
 }
 
 TEST_F(RunSurfaces, HullsAreReducedAnewWithoutTheirParts) {
