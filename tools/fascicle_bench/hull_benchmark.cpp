@@ -9,7 +9,7 @@
 //
 // All are timed by the processor time of one thread. Of the poses, `iterations` is the mean and `converged` the part
 // that came within the tolerance, `volume_error` the worst, and ms_worst the slowest. In the reference's poses, speedup
-// is its time by theirs, and mm_off and mm_off_worst are how far vertices are from its places, in the mean and at most
+// is its time by theirs, energy theirs of the shape by its own, and mm_off and mm_off_worst are how far vertices are from its places, in the mean and at most
 // (bones are met in another way there, too). M_weights counts millions a second; GFMA, L2_GB and L3_GB are what the
 // machine can do at most, by the same clock (machine_rates.hpp): each product with the whole matrix of weights reads
 // vertices x hull vertices x 4 bytes.
@@ -175,7 +175,10 @@ struct Reference {
     double ms = 0.0;
     HullPose pose;
     AlignedVector<SurfacePoint> points;
+    double energy = 0.0;  // m^2
   };
+  std::shared_ptr<const HullAsset> hull;
+  std::shared_ptr<const PoseReference> solver;
   std::vector<Pose> poses;
 };
 
@@ -185,14 +188,16 @@ const Reference& reference_of(const std::string& name) {
   const PosedMuscle& muscle = posed_muscle(name);
   const auto hull = hull_asset(name, 300);  // its settings and its line count
   if (!added || !hull) return found->second;
-  const PoseReference reference(*muscle.asset, *hull);
+  found->second.hull = hull;
+  found->second.solver = std::make_shared<const PoseReference>(*muscle.asset, *hull);
+  const PoseReference& reference = *found->second.solver;
   Poser poser(muscle, *hull, detect_simd());
   for (std::size_t i = 0; i < kReferencePoses; ++i) {
     const std::size_t index = i * (muscle.poses.size() / kReferencePoses);
     const std::clock_t start = std::clock();
     const HullPose pose = poser.pose(index, reference);
     const double ms = 1.0e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    found->second.poses.push_back({index, ms, pose, poser.points()});
+    found->second.poses.push_back({index, ms, pose, poser.points(), reference.energy(poser.points())});
   }
   return found->second;
 }
@@ -219,13 +224,15 @@ void full_mesh(benchmark::State& state, const std::string& name) {
 // How much faster than the reference `poser` takes its poses, and how far from its places it ends.
 void compare(benchmark::State& state, const Reference& reference, Poser& poser, std::uint32_t refinements,
              std::uint32_t vertices) {
-  double ms = 0.0, reference_ms = 0.0, worst = 0.0, sum = 0.0;
+  double ms = 0.0, reference_ms = 0.0, worst = 0.0, sum = 0.0, energy = 0.0, reference_energy = 0.0;
   std::size_t count = 0;
   for (const Reference::Pose& wanted : reference.poses) {
     const std::clock_t start = std::clock();
     poser.pose(wanted.index, refinements);
     ms += 1.0e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     reference_ms += wanted.ms;
+    energy += reference.solver->energy(poser.points());
+    reference_energy += wanted.energy;
     for (std::size_t v = 0; v < vertices; ++v) {
       const SurfacePoint &a = poser.points()[v], &b = wanted.points[v];
       const double off = 1.0e3 * std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
@@ -237,6 +244,7 @@ void compare(benchmark::State& state, const Reference& reference, Poser& poser, 
     }
   }
   state.counters["speedup"] = reference_ms / ms;
+  state.counters["energy"] = energy / reference_energy;
   state.counters["mm_off"] = sum / static_cast<double>(count);
   state.counters["mm_off_worst"] = worst;
 }

@@ -56,6 +56,7 @@ struct HullAttachment {
 struct HullDirection {
   std::vector<float> along;              // of the rest line's length, 0..1: the parts' centres
   std::vector<glm::vec3> rest;           // m, by difference: between the centres, at rest
+  std::vector<glm::vec3> line;           // m, likewise: between the line's places there, at rest
   DenseRows load;                        // hull x differences
 };
 

@@ -117,10 +117,11 @@ struct PoseReference::Parts {
     Places targets(rows.rows(), 3);
     const double weight = std::sqrt(static_cast<double>(hull.settings.direction) * static_cast<double>(hull.direction.along.size()));
     for (Eigen::Index i = 0; i < targets.rows(); ++i) {
-      const float from = hull.direction.along[static_cast<std::size_t>(i)], to = hull.direction.along[static_cast<std::size_t>(i) + 1];
-      const Eigen::Vector3d before = to_eigen(rest_place_along(hull.line, to)) - to_eigen(rest_place_along(hull.line, from));
-      const Eigen::Vector3d now = to_eigen(place_along(hull.line, line, to)) - to_eigen(place_along(hull.line, line, from));
-      const Eigen::Vector3d rest = to_eigen(hull.direction.rest[static_cast<std::size_t>(i)]);
+      const auto part = static_cast<std::size_t>(i);
+      const Eigen::Vector3d before = to_eigen(hull.direction.line[part]);
+      const Eigen::Vector3d now = to_eigen(place_along(line, hull.direction.along[part + 1]) -
+                                           place_along(line, hull.direction.along[part]));
+      const Eigen::Vector3d rest = to_eigen(hull.direction.rest[part]);
       const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, now);
       targets.row(i) = (weight * now.norm() / before.norm() * (turn * rest)).transpose();
     }

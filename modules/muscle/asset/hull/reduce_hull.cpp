@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "modules/muscle/asset/hull/direction_parts.hpp"
+#include "modules/muscle/kernels/hull/line_place.hpp"
 
 namespace fascicle::muscle {
 namespace {
@@ -132,7 +133,11 @@ bool reduce_to_hull(const SurfaceAsset& surface, const ShapeEnergy& energy, cons
     asset.direction.load = to_dense_rows(weight * rows.transpose());
     asset.direction.along = parts.along;
     const Places rest = parts.differences * energy.rest;
+    std::vector<glm::vec3> line;
+    for (const HullLinePoint& point : asset.line) line.push_back(point.rest);
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+      const auto part = static_cast<std::size_t>(i);
+      asset.direction.line.push_back(place_along(line, parts.along[part + 1]) - place_along(line, parts.along[part]));
       asset.direction.rest.emplace_back(static_cast<float>(rest(i, 0)), static_cast<float>(rest(i, 1)),
                                         static_cast<float>(rest(i, 2)));
     }

@@ -38,6 +38,7 @@ void lay_out(const SurfaceAsset& surface, const HullAsset& hull, HullScratch& sc
   }
   scratch.columns.resize(3 * hull.shape.clusters);
   scratch.sample_gradient.resize(samples);
+  scratch.sample_moves.resize(samples);
   scratch.turn_inverse.resize(hull.shape.clusters);
   scratch.brought.resize(vertices);
   scratch.bent.resize(vertices);

@@ -54,6 +54,8 @@ struct HullScratch {
   AlignedVector<SurfacePoint> columns;    // by column of each cluster's matrix
   AlignedVector<SurfacePoint> volume_row, volume_solution;  // J_0, A^-1 J_0^T
   AlignedVector<SurfacePoint> sample_gradient;              // m^2, by sample
+  AlignedVector<SurfacePoint> sample_moves;                 // m, by sample
+  double volume_price = 0.0;                                // the volume's multiplier; 0: its curvature is left out
   std::vector<std::array<float, 6>> turn_inverse;           // by cluster: see newton_step.hpp
   // Of the full mesh, by vertex.
   AlignedVector<SurfacePoint> brought;    // m: where the hull brought it

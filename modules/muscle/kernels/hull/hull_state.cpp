@@ -55,13 +55,9 @@ void find_load(const HullProblem& problem, HullScratch& scratch) {
   const HullDirection& direction = hull.direction;
   if (direction.rest.empty()) return;
   const HullVector targets = HullVector(scratch.columns).first(direction.rest.size());
-  std::array<glm::vec3, 2> rest{}, now{};
   for (std::size_t i = 0; i < direction.rest.size(); ++i) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      rest[end] = rest_place_along(hull.line, direction.along[i + end]);
-      now[end] = place_along(hull.line, problem.line, direction.along[i + end]);
-    }
-    targets[i] = to_point(along_line(direction.rest[i], rest[1] - rest[0], now[1] - now[0]) - direction.rest[i]);
+    const glm::vec3 now = place_along(problem.line, direction.along[i + 1]) - place_along(problem.line, direction.along[i]);
+    targets[i] = to_point(along_line(direction.rest[i], direction.line[i], now) - direction.rest[i]);
   }
   problem.kernels.multiply({.matrix = &direction.load, .in = targets, .out = scratch.load, .add = true});
 }

@@ -5,13 +5,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "modules/muscle/asset/hull/hull_asset.hpp"
-
 namespace fascicle::muscle {
 
-// Where a line is at rest after a part 0..1 of its length, and where it is now (`line`, a place a point): in the same
-// segment, as far along it. A line of one point is there; of none, at zero.
-glm::vec3 rest_place_along(std::span<const HullLinePoint> rest, float along);
-glm::vec3 place_along(std::span<const HullLinePoint> rest, std::span<const glm::vec3> line, float along);
+// After a part 0..1 of a polyline's length. A line that is bent over a bone by one of its segments is stretched there
+// and nowhere else; a muscle slides along its line and is stretched evenly, so places are told by length, not by segment.
+// A line without a length is where its first point is; one of no points, at zero.
+glm::vec3 place_along(std::span<const glm::vec3> line, float along);
 
 }  // namespace fascicle::muscle

@@ -15,8 +15,10 @@
 namespace fascicle::muscle {
 namespace {
 
-constexpr int kMostProducts = 12;         // of H in an iteration
-constexpr double kAccuracy = 0.1;         // to which an iteration's own problem is solved
+constexpr int kMostProducts = 16;         // of H in an iteration
+// To which an iteration's own problem is solved, while the last one moved more than kNearby of the size, and after that.
+constexpr double kAccuracyAfar = 0.1, kAccuracyNearby = 0.01;
+constexpr float kNearby = 0.01f;
 constexpr float kSafe = 0.1f;             // of Q at rest: where Q itself has no less, it is taken
 constexpr int kMostHalvings = 5;
 constexpr double kNoise = 1.0e-5;         // of what the energy changes: rounding of single precision
@@ -59,6 +61,30 @@ void prepare_turns(const HullProblem& problem, HullScratch& scratch) {
   }
 }
 
+// out -= price times the second derivative of the volume times p.
+void subtract_volume_curvature(const HullProblem& problem, HullRow p, double price, HullScratch& scratch,
+                               HullVector out) {
+  const HullSamples& samples = problem.hull.samples;
+  problem.kernels.multiply({.matrix = &samples.weights, .in = p, .out = scratch.sample_moves});
+  std::ranges::fill(scratch.sample_gradient, SurfacePoint{});
+  const auto sixth = static_cast<float>(-price / 6.0);
+  const glm::vec3 origin = place(scratch.state.samples[0]);
+  for (std::size_t t = 0; t < samples.triangles.size(); t += 3) {
+    const std::uint32_t* v = &samples.triangles[t];
+    glm::vec3 x[3], y[3];
+    for (int k = 0; k < 3; ++k) {
+      x[k] = place(scratch.state.samples[v[k]]) - origin;
+      y[k] = place(scratch.sample_moves[v[k]]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int b = (k + 1) % 3, c = (k + 2) % 3;
+      SurfacePoint& g = scratch.sample_gradient[v[k]];
+      set(g, place(g) + sixth * (glm::cross(y[b], x[c]) + glm::cross(x[b], y[c])));
+    }
+  }
+  problem.kernels.multiply({.matrix = &samples.gather, .in = scratch.sample_gradient, .out = out, .add = true});
+}
+
 // out = H p.
 void apply_hessian(const HullProblem& problem, HullRow p, HullScratch& scratch, HullVector out) {
   const HullShape& shape = problem.hull.shape;
@@ -79,10 +105,11 @@ void apply_hessian(const HullProblem& problem, HullRow p, HullScratch& scratch, 
   }
   problem.kernels.multiply({.matrix = &shape.stiffness, .in = p, .out = out});
   problem.kernels.multiply({.matrix = &shape.gather, .in = scratch.columns, .out = out, .add = true});
+  if (scratch.volume_price != 0.0) subtract_volume_curvature(problem, p, scratch.volume_price, scratch, out);
 }
 
 // scratch.step: the move that this iteration proposes. scratch.residual holds -g on entry.
-void solve_step(const HullProblem& problem, const ActiveRows& active, HullScratch& scratch) {
+void solve_step(const HullProblem& problem, const ActiveRows& active, double accuracy, HullScratch& scratch) {
   const HullVector step(scratch.step), r(scratch.residual), p(scratch.direction), z(scratch.conditioned),
       product(scratch.product);
   std::ranges::fill(step, SurfacePoint{});
@@ -92,7 +119,7 @@ void solve_step(const HullProblem& problem, const ActiveRows& active, HullScratc
   active.condition(problem, r, z);
   std::ranges::copy(z, p.begin());
   double rz = dot(HullRow(r), HullRow(z));
-  const double enough = kAccuracy * kAccuracy * rz;
+  const double enough = accuracy * accuracy * rz;
   for (int i = 0; i < kMostProducts && rz > enough && rz > 0.0; ++i) {
     apply_hessian(problem, p, scratch, product);
     const double curvature = dot(HullRow(p), HullRow(product));
@@ -186,7 +213,9 @@ double newton_step(const HullProblem& problem, HullScratch& scratch) {
   const ConstraintRows rows(problem, scratch);
   const RowValues multipliers = find_multipliers(rows, scratch.step);
   prepare_turns(problem, scratch);
-  solve_step(problem, ActiveRows(rows, multipliers), scratch);
+  const bool nearby = !scratch.residuals.empty() && scratch.residuals.back() < kNearby;
+  scratch.volume_price = nearby && problem.keeps_volume ? multipliers[0] * rows.scale(0) : 0.0;
+  solve_step(problem, ActiveRows(rows, multipliers), nearby ? kAccuracyNearby : kAccuracyAfar, scratch);
 
   const Prices prices = prices_of(rows, multipliers);
   const double before = merit(problem, state, prices);

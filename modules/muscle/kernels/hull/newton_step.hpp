@@ -6,6 +6,9 @@
 // so H p = A p - K (R [w]). With Q at rest in place of Q (the variable projection of Golub and Pereyra, Gauss-Newton's
 // own) H is never negative; with Q itself the last iterations converge faster, so that is taken where it is safe.
 //
+// Near the solution the volume's multiplier times its own second derivative is taken from H, without which the last
+// iterations would only take off a constant part each.
+//
 // A move d has to fulfil the volume and the active contacts, linearised: J d = need. min d'Hd/2 + g'd subject to that is
 // solved by conjugate gradients with the constraint preconditioner of Gould, Hribar and Nocedal (2001): A^-1, which is
 // factorised once and inverted, then a projection by the Schur complement J A^-1 J'. Which contacts are active is

@@ -157,7 +157,8 @@ TEST(PoseSurface, IterationsEndFasterThanTheyBegin) {
   ASSERT_GE(moved.size(), 3u);
   // From the first that is below a hundredth on each takes off more than half.
   for (std::size_t i = 1; i < moved.size(); ++i) {
-    if (moved[i - 1] < 0.01f && moved[i - 1] > 2.0e-6f) EXPECT_LT(moved[i], 0.5f * moved[i - 1]) << i;
+    if (moved[i - 1] > 0.01f || moved[i - 1] < 2.0e-6f) continue;
+    EXPECT_LT(moved[i], 0.5f * moved[i - 1]) << i;
   }
 }
 
