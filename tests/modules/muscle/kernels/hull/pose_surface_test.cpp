@@ -51,9 +51,11 @@ TEST(PoseSurface, BonesThatAreNoNumbersEndTheIterations) {
 
 TEST(PoseSurface, ALineThatIsNoNumberOrHasNoLengthLeavesTheShapeToTheRest) {
   PosedSpindle spindle;
-  spindle.line.assign(spindle.line.size(), glm::vec3(0.0f));
-  spindle.pose();
-  EXPECT_TRUE(is_finite(spindle));
+  for (const float place : {0.0f, kNaN}) {
+    spindle.line.assign(spindle.line.size(), glm::vec3(place));
+    spindle.pose();
+    EXPECT_TRUE(is_finite(spindle)) << place;
+  }
   spindle.line.clear();
   spindle.pose();
   EXPECT_TRUE(is_finite(spindle));
