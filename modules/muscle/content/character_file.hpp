@@ -136,7 +136,6 @@ struct SurfaceMuscleEntry {
   std::vector<SurfaceLevel> levels{{}};  // finest first; never empty
   JsonNode coarse_hull;              // what asks for that solver; without a node: nothing does
   HullSettings hull;
-  JsonNode hull_node;
   std::vector<LinePointEntry> action_line;  // from origin to insertion; empty: not given
   JsonNode action_line_node;
   bool sound = false;                // read without an error

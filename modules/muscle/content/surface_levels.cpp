@@ -88,8 +88,7 @@ LinePointEntry read_line_point(const JsonNode& node, const ReadContext& context)
 
 void read_surface_solver(JsonObject& object, SurfaceMuscleEntry& entry, const ReadContext& context) {
   Diagnostics& diagnostics = context.diagnostics;
-  entry.hull_node = object.optional("hull");
-  if (entry.hull_node.exists()) read_hull(entry.hull_node, entry.hull, context);
+  if (const JsonNode hull = object.optional("hull"); hull.exists()) read_hull(hull, entry.hull, context);
   const JsonNode solver = object.optional("solver");
   const JsonNode list = object.optional_array("levels", 1, kMostSurfaceLevels);
   const std::size_t errors_before = diagnostics.errors.size();

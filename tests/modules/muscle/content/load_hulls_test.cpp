@@ -158,6 +158,13 @@ TEST_F(LoadHulls, ALineStandsWhereItsMeshDoes) {
   EXPECT_LT(glm::distance(line[1].position, glm::vec3(-0.15f, -0.095f, 0.0f)), 1e-6f);
 }
 
+// The belly of a muscle with long tendons: both ends are far from it.
+TEST_F(LoadHulls, ALineMayBeginAndEndFarFromItsMuscleWhereItLeadsThrough) {
+  std::string text = with(hulled_limb(), "[-150, 95, 10]", "[-150, 800, 10]");
+  ASSERT_TRUE(load(with(text, "[-0.15, -0.095, 0]", "[-0.15, -0.8, 0]")));
+  EXPECT_THAT(warnings(), IsEmpty());
+}
+
 TEST_F(LoadHulls, TheOtherSideHasTheLineReflectedAndAHullOfItsOwn) {
   const auto limb = load(with(hulled_limb(), "\"name\": \"ball_r\"", R"("name": "ball_r", "mirror": true)"));
   ASSERT_TRUE(limb);
