@@ -24,7 +24,8 @@ void add_hull(ecs::World& world, ecs::Entity muscle, std::shared_ptr<const HullA
 
 // Poses a muscle by its hull now, outside of the schedule, where its character's BoneMatrices are, whoever solves it in
 // steps: for scrubbing, previews and baking. No time passes and nothing is blended; the same bones give the same shape
-// whatever came before. Sets SurfaceState, SurfaceContacts and DrawnSurface; dynamics go on from there. One that a
+// whatever came before, and however large the muscle is in the picture: SurfaceHull::settings say how often it is
+// refined, not its level. Sets SurfaceState, SurfaceContacts and DrawnSurface; dynamics go on from there. One that a
 // musculotendon unit drives goes by where the last run of the systems left that. False: no hull, no sound bones, or not
 // enabled; nothing has changed then but that one which is not enabled is carried along.
 bool pose_now(ecs::World& world, ecs::Entity muscle);

@@ -20,7 +20,7 @@ void place_line(const SurfaceState& state, SurfaceHull& hull) {
 void pose(const PoseContext& context, const SurfaceStep& step, SurfaceState& state, SurfaceHull& hull) {
   place_line(state, hull);
   HullSettings settings = hull.settings;
-  settings.refinements = hull.refinements;
+  if (context.blending) settings.refinements = hull.refinements;
   hull.pose = pose_surface(step, *hull.asset, context.hull_kernels, settings, hull.line, hull.scratch);
   state.volume = hull.pose.volume;
   forget_pairs(state.scratch.itself);

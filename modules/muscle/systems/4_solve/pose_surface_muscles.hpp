@@ -29,7 +29,7 @@ struct PoseContext {
   const SurfaceKernels& surface_kernels;
   const HullKernels& hull_kernels;
   float time = 0.0f;      // s, the step's length
-  bool blending = true;   // false: the pose at once
+  bool blending = true;   // false: the pose at once, refined as SurfaceHull::settings say and not as the level does
 };
 // One muscle, whatever its solver. Whether it could be posed: not so without bones, or while it is not enabled.
 bool pose_muscle(const PoseContext& context, const SurfaceMuscle& muscle, const BoneMatrices* bones,

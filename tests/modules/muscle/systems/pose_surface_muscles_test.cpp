@@ -181,6 +181,14 @@ TEST(PoseSurfaceMuscles, APoseMayBeAskedForOutsideOfTheSchedule) {
     for (std::size_t v = 0; v < drawn.size(); ++v) EXPECT_EQ(drawn[v].position, expected[v].position);
   }
   EXPECT_EQ(scrubbed.hull().solver, SurfaceSolver::kDynamic);
+  // Nor does it matter how large it is in the picture.
+  const auto before = scrubbed.points();
+  scrubbed.hull().refinements = 0;
+  ASSERT_TRUE(pose_now(scrubbed.world, scrubbed.muscles[0]));
+  EXPECT_EQ(scrubbed.points(), before);
+  scrubbed.hull().settings.refinements = 0;
+  ASSERT_TRUE(pose_now(scrubbed.world, scrubbed.muscles[0]));
+  EXPECT_NE(scrubbed.points(), before);
   // Not while it is switched off.
   scrubbed.state().enabled = false;
   EXPECT_FALSE(pose_now(scrubbed.world, scrubbed.muscles[0]));
