@@ -135,7 +135,11 @@ int hull(const Options& options) {
 #ifdef FASCICLE_COOK_DRAWS
   if (!options.picture.empty()) fine &= draw(options, hulls);
 #endif
-  if (options.store && fine) fine &= store_hulls(*file, muscles, hulls);
+  if (options.store && !fine) {
+    complain(muscle::hull_store_of(*file).string(), "the hulls are not stored", "mend what is said above");
+  } else if (options.store) {
+    fine = store_hulls(*file, muscles, hulls);
+  }
   return fine ? kFine : kErrors;
 }
 

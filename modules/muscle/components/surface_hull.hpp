@@ -16,7 +16,8 @@ namespace fascicle::muscle {
 
 struct SurfaceHull {
   std::shared_ptr<const HullAsset> asset;
-  HullSettings settings;                     // the asset's, until a game changes them
+  HullSettings settings;                     // the asset's, until a game changes iterations, tolerance or refinements;
+                                             // the others are built into the asset
   std::optional<SurfaceSolver> forced;       // a game's own choice, in place of the level of detail's
   SurfaceSolver solver = SurfaceSolver::kDynamic;  // of this step
   std::uint32_t refinements = 2;             // of this step
