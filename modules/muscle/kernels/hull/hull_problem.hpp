@@ -17,7 +17,6 @@ struct HullProblem {
   const SurfaceStep& step;
   const HullAsset& hull;
   const HullKernels& kernels;
-  const HullSettings& settings;
   std::span<const glm::vec3> line;
   bool keeps_volume = true;
 };

@@ -15,7 +15,7 @@ void lay_out(const SurfaceAsset& surface, const HullAsset& hull, HullState& stat
   for (const std::uint32_t vertex : hull.samples.vertices) state.samples.push_back(surface.rest[vertex]);
   state.shape.resize(hull.shape.rest.size());
   state.rotations.resize(hull.shape.rest.size());
-  state.contacts.reserve(hull.samples.vertices.size());
+  state.contacts.reserve(hull.samples.vertices.size() * std::max<std::size_t>(surface.bones.size(), 1));
 }
 
 }  // namespace
@@ -41,6 +41,7 @@ void lay_out(const SurfaceAsset& surface, const HullAsset& hull, HullScratch& sc
   scratch.sample_moves.resize(samples);
   scratch.turn_inverse.resize(hull.shape.clusters);
   scratch.brought.resize(vertices);
+  scratch.before.resize(vertices);
   scratch.bent.resize(vertices);
   scratch.gradient.resize(vertices);
   scratch.vertex_shape.resize(packs);

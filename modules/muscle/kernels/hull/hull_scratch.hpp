@@ -21,7 +21,7 @@ struct SampleContact {
   float need = 0.0f;                   // m; negative: how far it may still go
 };
 
-// Of several contacts in one cluster the hull could not tell them apart.
+// Each costs a row of a dense problem in every iteration.
 inline constexpr std::size_t kMostContacts = 48;
 inline constexpr std::size_t kMostRows = kMostContacts + 1;  // the volume first
 
@@ -58,7 +58,8 @@ struct HullScratch {
   double volume_price = 0.0;                                // the volume's multiplier; 0: its curvature is left out
   std::vector<std::array<float, 6>> turn_inverse;           // by cluster: see newton_step.hpp
   // Of the full mesh, by vertex.
-  AlignedVector<SurfacePoint> brought;    // m: where the hull brought it
+  AlignedVector<SurfacePoint> brought;    // m: where the hull brought it, or a bone's surface
+  AlignedVector<SurfacePoint> before;     // m: where it was before it was pushed out of bones
   AlignedVector<SurfacePoint> bent;       // 1/m: R_i d_0i - d_i
   AlignedVector<SurfacePoint> gradient;   // m^2
   std::vector<MatrixPack> vertex_shape, vertex_rotations;

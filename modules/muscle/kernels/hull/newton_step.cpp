@@ -21,7 +21,7 @@ constexpr double kAccuracyAfar = 0.1, kAccuracyNearby = 0.01;
 constexpr float kNearby = 0.01f;
 constexpr float kSafe = 0.1f;             // of Q at rest: where Q itself has no less, it is taken
 constexpr int kMostHalvings = 5;
-constexpr double kNoise = 1.0e-5;         // of what the energy changes: rounding of single precision
+constexpr double kNoise = 1.0e-6;         // of what the energy changes: rounding of single precision
 
 glm::mat3 matrix_of(const MatrixPack& pack, std::size_t lane) {
   glm::mat3 m;
@@ -233,7 +233,7 @@ double newton_step(const HullProblem& problem, HullScratch& scratch) {
     if (halving == kMostHalvings || merit(problem, trial, prices) <= allowed) break;
   }
   std::swap(scratch.state, scratch.trial);
-  return share * length;
+  return length;
 }
 
 }  // namespace fascicle::muscle

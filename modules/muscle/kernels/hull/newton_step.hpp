@@ -14,7 +14,8 @@
 // factorised once and inverted, then a projection by the Schur complement J A^-1 J'. Which contacts are active is
 // decided with A in place of H: there it is a small problem of multipliers, none of them pulling.
 //
-// A line search on the energy and what is violated of the constraints follows, so that it never diverges.
+// A line search on the energy and what is violated of the constraints follows: the move is halved until they are lessened.
+// Where no part of it does that, the smallest is taken: it sees other contacts, and the iterations are counted.
 #pragma once
 
 #include "modules/muscle/kernels/hull/hull_problem.hpp"
@@ -24,7 +25,8 @@ namespace fascicle::muscle {
 // Rotations that the carriers' motions suggest, and the hull's best places for them: where the iterations start.
 void start_state(const HullProblem& problem, HullScratch& scratch);
 
-// Moves scratch.state. Returns how far the furthest hull vertex went (m); not finite where the pose is not.
+// Moves scratch.state. Returns how far the furthest hull vertex was to go (m), whatever part of
+// that the line search took; not finite where the pose is not.
 double newton_step(const HullProblem& problem, HullScratch& scratch);
 
 }  // namespace fascicle::muscle

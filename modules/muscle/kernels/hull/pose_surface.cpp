@@ -43,7 +43,7 @@ void start_rotations(const HullProblem& problem, HullScratch& scratch) {
 
 HullPose pose_surface(const SurfaceStep& step, const HullAsset& hull, const HullKernels& kernels,
                       const HullSettings& settings, std::span<const glm::vec3> line, HullScratch& scratch) {
-  const HullProblem problem{step, hull, kernels, settings, line, step.settings.volume_compliance < kSoftVolume};
+  const HullProblem problem{step, hull, kernels, line, step.settings.volume_compliance < kSoftVolume};
   const SurfaceAsset& asset = *step.asset;
   const double size = static_cast<double>(asset.size);
   scratch.residuals.clear();
@@ -68,7 +68,11 @@ HullPose pose_surface(const SurfaceStep& step, const HullAsset& hull, const Hull
     start_rotations(problem, scratch);
     for (std::uint32_t i = 0; i < settings.refinements; ++i) {
       scratch.refined.push_back(static_cast<float>(refine_once(problem, scratch) / size));
-      if (push_out(problem, scratch)) std::ranges::copy(step.points.first(asset.vertex_count), scratch.brought.begin());
+      std::ranges::copy(step.points.first(asset.vertex_count), scratch.before.begin());
+      if (!push_out(problem, scratch)) continue;
+      for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
+        if (place(step.points[v]) != place(scratch.before[v])) scratch.brought[v] = step.points[v];
+      }
     }
   }
   pose.volume = restore_volume(problem, scratch);

@@ -171,10 +171,11 @@ bool push_out(const HullProblem& problem, HullScratch& scratch) {
     if (bone.field == nullptr) continue;
     const std::size_t near =
         find_near_bone(bone, std::span(scratch.balls).first(balls), points, distance, scratch.near);
-    const float depth = scratch.touches[b].depth;
+    const std::uint32_t before = scratch.touches[b].vertices;
     push_from_bone(bone, std::span(scratch.near).first(near), points, distance, 0.0f, step.points, scratch.touches[b]);
-    scratch.touches[b].depth = std::max(depth, scratch.touches[b].depth);
     any = any || scratch.touches[b].vertices > 0;
+    // A muscle that is pressed and comes to rest beside the bone touches it.
+    scratch.touches[b].vertices = std::max(before, scratch.touches[b].vertices);
   }
   return any;
 }

@@ -9,6 +9,7 @@
 namespace fascicle::muscle {
 namespace {
 
+constexpr std::uint8_t kMostOfCluster = 8;
 constexpr float kNear = 0.003f;   // m beyond the contact distance
 constexpr float kShallow = 2.0f;  // voxels inside: deeper, the nearest surface need not be the one it came through
 constexpr int kBisections = 12;
@@ -72,7 +73,6 @@ void find_contacts(const HullProblem& problem, HullRow before, HullScratch& scra
       const glm::vec3 from = before.empty() ? apply(problem.step.rest_to_bone[b],
                                                     place(problem.step.asset->rest[samples.vertices[sample]]))
                                             : apply(bone.to_bone, place(before[sample]));
-      if (state.contacts.size() == state.contacts.capacity()) break;
       SampleContact contact{.sample = sample, .bone = b};
       if (touches(bone, from, apply(bone.to_bone, place(state.samples[sample])), distance, contact)) {
         state.contacts.push_back(contact);
@@ -87,8 +87,8 @@ void find_contacts(const HullProblem& problem, HullRow before, HullScratch& scra
   std::size_t kept = 0;
   for (const SampleContact& contact : state.contacts) {
     std::uint8_t& taken = scratch.taken[samples.cluster[contact.sample]];
-    if (taken != 0 || kept == kMostContacts) continue;
-    taken = 1;
+    if (taken == kMostOfCluster || kept == kMostContacts) continue;
+    ++taken;
     state.contacts[kept++] = contact;
   }
   state.contacts.resize(kept);

@@ -14,7 +14,8 @@ namespace fascicle::muscle {
 // Bones at the step's end.
 void place_bones(const SurfaceStep& step, std::span<SurfaceBone> bones);
 
-// Fills state.contacts, the deepest of each cluster, kMostContacts at most. `before`: where samples were before their
+// Fills state.contacts, the deepest, kMostContacts at most and some of each cluster: a hull vertex that had one alone
+// would let go of it for the next, and so on in turns. `before`: where samples were before their
 // last move; empty: at rest, where a bone brings the place that a sample has beside it at rest.
 void find_contacts(const HullProblem& problem, HullRow before, HullScratch& scratch, HullState& state);
 

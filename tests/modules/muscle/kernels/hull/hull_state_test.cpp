@@ -18,7 +18,7 @@ struct Posed {
   HullProblem problem;
   explicit Posed(float angle)
       : step((spindle.move(glm::mat4(1.0f), bent(angle)), spindle.step())),
-        problem{step, *spindle.hull, hull_kernels(spindle.simd), spindle.settings, spindle.line} {
+        problem{step, *spindle.hull, hull_kernels(spindle.simd), spindle.line} {
     place_bones(step, spindle.scratch.bones);
     find_load(problem, spindle.scratch);
     start_state(problem, spindle.scratch);
@@ -40,7 +40,7 @@ TEST(HullState, TurningAloneCostsNothing) {
   const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), 1.1f, glm::normalize(glm::vec3(0.3f, 1.0f, -0.2f)));
   spindle.move(turn, turn);
   const SurfaceStep step = spindle.step();
-  const HullProblem problem{step, *spindle.hull, hull_kernels(spindle.simd), spindle.settings, spindle.line};
+  const HullProblem problem{step, *spindle.hull, hull_kernels(spindle.simd), spindle.line};
   place_bones(step, spindle.scratch.bones);
   find_load(problem, spindle.scratch);
   start_state(problem, spindle.scratch);

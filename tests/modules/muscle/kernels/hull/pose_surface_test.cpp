@@ -197,6 +197,7 @@ TEST(PoseSurface, StaysOutOfABoneThatPressesIntoIt) {
     EXPECT_GT(nearest, distance - 2e-4f) << depth;
     EXPECT_NEAR(volume_of(spindle), spindle.asset->volume, 2e-4 * spindle.asset->volume);
     EXPECT_GT(touching, 0u) << depth;
+    EXPECT_GT(spindle.scratch.touches[0].vertices, 0u) << depth;  // and it is told
     // Without the bone it would be inside: the solver is what keeps it out.
     SurfaceStep step = spindle.step();
     step.settings.collide_with_bones = false;
@@ -207,6 +208,42 @@ TEST(PoseSurface, StaysOutOfABoneThatPressesIntoIt) {
     }
     EXPECT_NEAR(nearest, -depth, 1e-3f);
   }
+}
+
+TEST(PoseSurface, ConvergesWhereBonesPressIt) {
+  const auto ball = test::sphere_bone(0.03f);
+  PosedSpindle spindle(ball.get(), 150);
+  spindle.settings.refinements = 0;
+  spindle.rest_to_bone[0] = glm::translate(glm::mat4(1.0f), glm::vec3(-kSpindleRadius - 0.04f, 0.0f, 0.0f));
+  int poses = 0, converged = 0;
+  for (const float angle : {0.0f, 0.4f, 0.8f}) {
+    for (const float shift : {-0.03f, 0.0f, 0.03f}) {
+      for (const float depth : {-0.01f, 0.003f, 0.006f, 0.01f, 0.015f}) {
+        spindle.move(glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, shift)) * bent(angle));
+        spindle.bones[0].to = glm::translate(glm::mat4(1.0f), glm::vec3(-0.01f - depth, 0.0f, 0.0f));
+        ++poses;
+        if (spindle.pose().converged) ++converged;
+      }
+    }
+  }
+  // One presses straight at the line, and which side it gives way to is decided late.
+  EXPECT_GE(converged, poses - 1);
+}
+
+// One vertex that comes to touch a bone must not move the others.
+TEST(PoseSurface, TouchingMoreOrLessIsNoJump) {
+  const auto ball = test::sphere_bone(0.03f);
+  PosedSpindle spindle(ball.get());
+  spindle.rest_to_bone[0] = glm::translate(glm::mat4(1.0f), glm::vec3(-kSpindleRadius - 0.04f, 0.0f, 0.0f));
+  AlignedVector<SurfacePoint> before;
+  float most = 0.0f;
+  for (int i = 0; i < 100; ++i) {
+    spindle.bones[0].to = glm::translate(glm::mat4(1.0f), glm::vec3(-0.008f - 5.0e-5f * static_cast<float>(i), 0.0f, 0.0f));
+    spindle.pose();
+    if (!before.empty()) most = std::max(most, furthest_from(spindle, before));
+    before = spindle.points;
+  }
+  EXPECT_LT(most, 3.0e-4f);  // the bone goes 0.05 mm a pose
 }
 
 TEST(PoseSurface, ABoneThatSwallowsItLeavesItFinite) {
