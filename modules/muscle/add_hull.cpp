@@ -16,7 +16,7 @@ namespace {
 
 bool belongs(const HullAsset& hull, const SurfaceMuscle& muscle) {
   const SurfaceAsset& asset = *muscle.asset;
-  return hull.weights.rows == asset.vertex_count &&
+  return hull.weights.rows == asset.vertex_count && hull.attachments.size() == asset.attachments.size() &&
          std::all_of(hull.line.begin(), hull.line.end(), [&](const HullLinePoint& point) {
            return point.bone >= 0 ? static_cast<std::size_t>(point.bone) < muscle.rest_bones.size()
                                   : point.carrier < asset.carriers.size();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/animation/skeleton.hpp"
+#include "engine/geometry/clean_mesh.hpp"
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/winding_number.hpp"
 #include "modules/muscle/asset/surface/check_surface.hpp"
@@ -35,7 +36,7 @@ bool holds_all(const TriangleMesh& bone, std::span<const glm::vec3> points) {
   if (bone.indices.empty() || points.empty()) return false;
   const Bounds box = mesh_bounds(bone);
   if (!std::ranges::all_of(points, [&](const glm::vec3& p) { return holds(box, p); })) return false;
-  const WindingField winding(bone);
+  const WindingField winding(clean_mesh(bone).mesh);  // bones may come inside out
   return std::ranges::all_of(points, [&](const glm::vec3& p) { return winding.inside(p); });
 }
 

@@ -27,7 +27,7 @@ inline constexpr NumberRange kPointsPerFibreRange{.min = 2, .max = 1000};
 inline constexpr NumberRange kFibrePennationRange{.min = 0, .max = 1.5};          // rad
 inline constexpr NumberRange kPieceRange{.min = 1, .max = 1000};
 inline constexpr NumberRange kAbovePixelsRange{.min = 0, .max = 100000};
-inline constexpr NumberRange kHullVerticesRange{.min = 4, .max = 2000};           // its matrices grow by their square
+inline constexpr NumberRange kHullVerticesRange{.min = 4, .max = 1000};           // its matrices grow by their square
 inline constexpr NumberRange kHullErrorRange{.min = 0, .max = 1000};              // mm
 inline constexpr NumberRange kHullIterationsRange{.min = 1, .max = 100};
 inline constexpr NumberRange kHullToleranceRange{.min = 0, .max = 0.1, .above_min = true};  // of the muscle's size

@@ -22,7 +22,7 @@ namespace {
 constexpr double kReproduced = 1.0e-5;  // of the muscle's size: how near the coordinates must bring the full mesh
 
 // A matrix of hull vertices squared is factorised and multiplied by: more would be slower than the full mesh.
-constexpr std::size_t kMostHullVertices = 2000;
+constexpr std::size_t kMostHullVertices = 1000;
 
 bool is_closed(const TriangleMesh& hull) {
   if (hull.indices.empty() || hull.indices.size() % 3 != 0) return false;
@@ -36,7 +36,12 @@ bool is_closed(const TriangleMesh& hull) {
   return true;
 }
 
-void check(const SurfaceMuscleDescription& description, const TriangleMesh& hull, Diagnostics& found) {
+std::int32_t find_driver(const SurfaceMuscleDescription& description, const MuscleAsset* muscles) {
+  return muscles == nullptr ? -1 : find_muscle(*muscles, description.driver);
+}
+
+void check(const SurfaceMuscleDescription& description, const TriangleMesh& hull, const MuscleAsset* muscles,
+           Diagnostics& found) {
   const auto fault = [&](const char* field, std::string cause, std::string remedy) {
     found.errors.push_back(fault_of(description, field, std::move(cause), std::move(remedy)));
   };
@@ -58,6 +63,10 @@ void check(const SurfaceMuscleDescription& description, const TriangleMesh& hull
       std::ranges::all_of(description.attachments, [](const auto& one) { return one.vertices.empty(); })) {
     fault("attachments", "the muscle is attached to no bone, so no pose says where it is",
           "attach it, or let it be solved by \"dynamic\" alone");
+  }
+  if (description.action_line.empty() && !description.driver.empty() && find_driver(description, muscles) < 0) {
+    fault("driver", fmt::format("the muscles at hand have no '{}' whose line it could follow", description.driver),
+          "hand over the driver's musculature, or give \"action_line\"");
   }
   if (description.action_line.empty() && description.driver.empty()) {
     fault("action_line", "a coarse hull needs the muscle's action line",
@@ -114,7 +123,7 @@ Result<std::shared_ptr<const HullAsset>> build_hull_asset(const SurfaceAsset& su
                                                           const SurfaceMuscleDescription& description,
                                                           const TriangleMesh& hull, const MuscleAsset* muscles) {
   Diagnostics found;
-  check(description, hull, found);
+  check(description, hull, muscles, found);
   if (!found.ok()) return found;
   auto asset = std::make_shared<HullAsset>();
   asset->settings = description.hull;

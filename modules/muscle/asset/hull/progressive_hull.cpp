@@ -59,7 +59,7 @@ struct Candidate {
 
 class Collapser {
  public:
-  // `within` is asked whether a new vertex, relative to `centre`, is near enough to the fine mesh.
+  // `within` is asked whether a place on a new triangle, relative to `centre`, is near enough to the fine mesh.
   Collapser(const TriangleMesh& mesh, const glm::dvec3& centre, std::function<bool(const glm::dvec3&)> within)
       : mesh_(mesh, centre), within_(std::move(within)) {}
 
@@ -167,6 +167,18 @@ class Collapser {
     return true;
   }
 
+  // The new vertex, and the middles of the triangles and edges that it would have: a long triangle may bridge a hollow
+  // whose rims are near.
+  bool stays_near(const glm::dvec3& place) const {
+    if (!within_(place)) return false;
+    for (const StarTriangle& one : star_) {
+      if (one.rim[0] == one.rim[1]) continue;
+      const glm::dvec3 &a = mesh_.position(one.rim[0]), &b = mesh_.position(one.rim[1]);
+      if (!within_((place + a + b) / 3.0) || !within_(0.5 * (place + a))) return false;
+    }
+    return true;
+  }
+
   bool plan(Candidate& candidate) {
     const glm::dvec3 &u = mesh_.position(candidate.u), &v = mesh_.position(candidate.v);
     const glm::dvec3 middle = 0.5 * (u + v);
@@ -177,7 +189,7 @@ class Collapser {
     const auto found = solve_linear_program(cost_ / area_, half_spaces_, kReach * radius_, kSlack * radius_);
     if (!found || !(glm::length(*found) <= kFurthest * radius_)) return false;
     candidate.place = middle + *found;
-    if (!keeps_shape(candidate.place, least_shape) || !within_(candidate.place)) return false;
+    if (!keeps_shape(candidate.place, least_shape) || !stays_near(candidate.place)) return false;
     const double length = glm::length(u - v), way = glm::length(*found);
     candidate.cost = (glm::dot(cost_, *found) - offset_) / 3.0 + kLengthCost * length * length * length +
                      kWayCost * way * way * way;
@@ -219,8 +231,8 @@ std::string fault_of(const TriangleMesh& mesh) {
 Diagnostic warning_of(const HullTarget& target, std::size_t vertices) {
   if (target.error > 0.0f) {
     return {{}, 0, 0, {},
-            fmt::format("a hull no further than {} m away needs {} vertices, more than the {} asked for", target.error,
-                        vertices, target.vertices),
+            fmt::format("a hull no further than {:.4g} mm away needs {} vertices, more than the {} asked for",
+                        1000.0f * target.error, vertices, target.vertices),
             "ask for more vertices, or let the hull be further away"};
   }
   return {{}, 0, 0, {},

@@ -16,8 +16,8 @@ inline constexpr std::uint32_t kHullVersion = 1;
 
 struct HullTarget {
   std::uint32_t vertices = 300;  // stop at so many
-  float error = 0.0f;            // m: no collapse whose new vertex would be further than this from the mesh; 0: any.
-                                 // (Triangles across hollows may be further still.)
+  float error = 0.0f;            // m: no collapse whose new vertex, or the middle of a new edge or triangle, would
+                                 // be further than this from the mesh; 0: any.
 };
 
 struct ProgressiveHull {

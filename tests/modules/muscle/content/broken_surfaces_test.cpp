@@ -29,6 +29,8 @@ void write_faulty_meshes(const ScratchFolder& folder) {
   for (glm::vec3& p : flat.positions) p = glm::vec3(1.0f, 2.0f, 3.0f);
   folder.write("point.obj", test::as_obj(flat));
   folder.write("vast.obj", test::as_obj(test::make_box({-400.0f, -300.0f, -300.0f}, {100.0f, 300.0f, 300.0f})));
+  folder.write("vast_inside_out.obj",
+               test::as_obj(test::inside_out(test::make_box({-400.0f, -300.0f, -300.0f}, {100.0f, 300.0f, 300.0f}))));
   folder.write("broken.obj", "v 1 2\n");
   folder.write("lines.vtk", "# vtk DataFile Version 3.0\nl\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 0 0\n"
                             "LINES 1 3\n2 0 1\n");
@@ -239,6 +241,9 @@ std::vector<test::BrokenCharacter> broken_surfaces() {
        {"/surface_muscles/0/action_line/0/space: unknown value 'bone'"}},
       {"SwallowedByABone",
        {{R"("file": "block.obj")", R"("file": "vast.obj")"}, {R"("within_mm": 4)", R"("vertices": [300])"}},
+       {"/surface_muscles/0/mesh: surface muscle 'ball_r': the bone 'shin_r' swallows it: at rest all"}},
+      {"SwallowedByABoneInsideOut",
+       {{R"("file": "block.obj")", R"("file": "vast_inside_out.obj")"}, {R"("within_mm": 4)", R"("vertices": [300])"}},
        {"/surface_muscles/0/mesh: surface muscle 'ball_r': the bone 'shin_r' swallows it: at rest all"}},
       {"SubstepsOfNone", {{R"("substeps": 4)", R"("substeps": 0)"}}, {"/settings/substeps: 0 is out of range"}},
       {"SecondOfItsName",

@@ -103,7 +103,7 @@ TEST_F(LoadHulls, OneSolverIsShortForOneLevel) {
 
 TEST_F(LoadHulls, SettingsAtTheirLimitsAreTaken) {
   for (const char* hull : {R"({ "vertices": 4, "tolerance": 1e-7, "bending": 0, "direction": 0, "refinements": 0 })",
-                           R"({ "vertices": 2000, "iterations": 100, "tolerance": 0.1, "bending": 1000, "direction": 1000,
+                           R"({ "vertices": 1000, "iterations": 100, "tolerance": 0.1, "bending": 1000, "direction": 1000,
                                "refinements": 100 })"}) {
     const auto limb = load(hulled_limb(hull));
     ASSERT_TRUE(limb);
@@ -314,7 +314,7 @@ TEST_F(LoadHulls, AHullThatNeedsMoreThanTheSolverTakesIsAnError) {
   const Diagnostic& error = refused.diagnostics().errors[0];
   EXPECT_EQ(error.path, "/surface_muscles/0/hull");
   EXPECT_GT(error.line, 0);
-  EXPECT_THAT(error.cause, HasSubstr("vertices, and the solver takes 2000 at most"));
+  EXPECT_THAT(error.cause, HasSubstr("vertices, and the solver takes 1000 at most"));
   EXPECT_THAT(error.remedy, HasSubstr("error_mm"));
 }
 

@@ -171,12 +171,30 @@ TEST(ProgressiveHull, KeepsTheDistance) {
     before = hull->mesh.positions.size();
     ASSERT_EQ(hull.diagnostics().warnings.size(), 1u);
     EXPECT_THAT(hull.diagnostics().warnings[0].cause,
-                HasSubstr(fmt::format("a hull no further than {} m away needs {} vertices, more than the 4", error, before)));
+                HasSubstr(fmt::format("a hull no further than {:.4g} mm away needs {} vertices, more than the 4",
+                                      1000.0f * error, before)));
   }
   const auto enough = build_progressive_hull(sphere, {.vertices = 300, .error = 0.01f});
   ASSERT_TRUE(enough.ok());
   EXPECT_TRUE(enough.diagnostics().warnings.empty());
   EXPECT_EQ(enough->mesh.positions.size(), 300u);
+}
+
+TEST(ProgressiveHull, KeepsTheDistanceAcrossHollows) {
+  const TriangleMesh torus = test::make_torus(0.1f, 0.03f, 40, 20);
+  const float error = 0.004f;
+  const auto hull = build_progressive_hull(torus, {.vertices = 4, .error = error});
+  ASSERT_TRUE(hull.ok());
+  expect_hull(torus, *hull, "torus");
+  const ClosestPoints fine(torus);
+  const TriangleMesh& mesh = hull->mesh;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const glm::vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
+                    c = mesh.positions[mesh.indices[t + 2]];
+    for (const glm::vec3& middle : {(a + b + c) / 3.0f, 0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a)}) {
+      EXPECT_LE(fine.at(middle).distance, error * 1.0001f);
+    }
+  }
 }
 
 TEST(ProgressiveHull, ThinSheetsStayClosed) {
