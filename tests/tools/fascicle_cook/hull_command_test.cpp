@@ -64,7 +64,7 @@ TEST_F(HullCommand, MakesWhatIsAskedFor) {
   const std::string obj = read("objs/ball-30.obj");
   EXPECT_EQ(std::ranges::count(obj, 'v') + std::ranges::count(obj, 'f'), 30 + 56);
   ASSERT_EQ(run(ball + " --vertices 4 --error 2"), 0) << err();
-  EXPECT_THAT(err(), HasSubstr("ball: a hull no further than 0.002 m away needs"));
+  EXPECT_THAT(err(), HasSubstr("ball: a hull no further than 2 mm away needs"));
   EXPECT_FALSE(std::filesystem::exists(file("ball.hulls.json"))) << "nothing is stored unless asked for";
 }
 
