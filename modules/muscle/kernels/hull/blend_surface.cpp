@@ -5,6 +5,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
+#include "modules/muscle/kernels/hull/push_out.hpp"
+
 namespace fascicle::muscle {
 namespace {
 
@@ -12,31 +14,6 @@ double six_volumes(const SurfaceStep& step, std::span<SurfacePoint> points, Surf
   return step.kernels->measure_volume({.triangles = step.asset->triangles, .vertex_count = step.asset->vertex_count,
                                        .points = points, .gradient = scratch.gradient, .rest = 0.0,
                                        .compliance = 0.0f, .rings = &step.asset->rings});
-}
-
-// What is too near to a bone goes out of it. `scratch.before` holds places that are known to be outside: a vertex that
-// is deep goes back towards its own.
-void push_out(const SurfaceStep& step, SurfaceScratch& scratch, std::span<BoneTouch> touches) {
-  if (!step.settings.collide_with_bones) return;
-  const std::span<SurfacePoint> vertices = step.points.first(step.asset->vertex_count);
-  for (std::size_t i = 0; i < scratch.balls.size(); ++i) {
-    const std::size_t first = i * kBallVertices;
-    scratch.balls[i] = ball_about(vertices.subspan(first, std::min(kBallVertices, vertices.size() - first)));
-  }
-  for (std::size_t b = 0; b < step.bones.size(); ++b) {
-    if (step.fields[b] == nullptr) continue;
-    const glm::dmat4 to_bone = glm::dmat4(step.rest_to_bone[b]) * glm::inverse(glm::dmat4(step.bones[b].to));
-    const SurfaceBone bone{.field = step.fields[b], .from_bone = glm::mat4(glm::inverse(to_bone)),
-                           .to_bone = glm::mat4(to_bone), .to_bone_before = glm::mat4(to_bone)};
-    const float distance = step.settings.contact_distance;
-    const std::size_t count = find_near_bone(bone, scratch.balls, vertices, distance, scratch.near);
-    BoneTouch touch;
-    push_from_bone(bone, std::span(scratch.near).first(count), scratch.before, distance, 0.0f, vertices, touch);
-    touches[b].vertices = std::max(touches[b].vertices, touch.vertices);
-    if (touch.depth <= touches[b].depth) continue;
-    touches[b].depth = touch.depth;
-    touches[b].deepest = touch.deepest;
-  }
 }
 
 }  // namespace
@@ -86,7 +63,8 @@ double add_difference(const SurfaceStep& step, float share, std::span<const Surf
   step.kernels->project_volume({.triangles = step.asset->triangles, .vertex_count = step.asset->vertex_count,
                                 .points = step.points, .gradient = scratch.gradient, .rest = wanted,
                                 .compliance = 0.0f, .rings = &step.asset->rings});
-  push_out(step, scratch, touches);
+  place_bones(step, scratch.bones);
+  push_out(step, scratch.bones, scratch.before, scratch.balls, scratch.near, touches);
   return six_volumes(step, step.points, scratch) / 6.0;
 }
 

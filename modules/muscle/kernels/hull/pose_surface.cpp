@@ -6,6 +6,7 @@
 #include "modules/muscle/kernels/hull/hull_problem.hpp"
 #include "modules/muscle/kernels/hull/hull_state.hpp"
 #include "modules/muscle/kernels/hull/newton_step.hpp"
+#include "modules/muscle/kernels/hull/push_out.hpp"
 #include "modules/muscle/kernels/hull/refine_surface.hpp"
 #include "modules/muscle/kernels/hull/sample_contacts.hpp"
 
@@ -50,6 +51,9 @@ HullPose pose_surface(const SurfaceStep& step, const HullAsset& hull, const Hull
   scratch.refined.clear();
   std::ranges::fill(scratch.touches, BoneTouch{});
   place_bones(step, scratch.bones);
+  const auto push = [&](HullRow before) {
+    return push_out(step, scratch.bones, before, scratch.balls, scratch.near, scratch.touches);
+  };
 
   HullPose pose;
   find_load(problem, scratch);
@@ -69,14 +73,14 @@ HullPose pose_surface(const SurfaceStep& step, const HullAsset& hull, const Hull
     for (std::uint32_t i = 0; i < settings.refinements; ++i) {
       scratch.refined.push_back(static_cast<float>(refine_once(problem, scratch) / size));
       std::ranges::copy(step.points.first(asset.vertex_count), scratch.before.begin());
-      if (!push_out(problem, scratch)) continue;
+      if (!push(scratch.before)) continue;
       for (std::uint32_t v = 0; v < asset.vertex_count; ++v) {
         if (place(step.points[v]) != place(scratch.before[v])) scratch.brought[v] = step.points[v];
       }
     }
   }
   pose.volume = restore_volume(problem, scratch);
-  for (int i = 0; i < kSettling && push_out(problem, scratch); ++i) pose.volume = restore_volume(problem, scratch);
+  for (int i = 0; i < kSettling && push(step.points); ++i) pose.volume = restore_volume(problem, scratch);
   std::ranges::fill(step.velocity, SurfacePoint{});
   return pose;
 }

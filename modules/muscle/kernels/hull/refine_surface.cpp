@@ -155,31 +155,6 @@ double refine_once(const HullProblem& problem, HullScratch& scratch) {
   return std::sqrt(most);
 }
 
-bool push_out(const HullProblem& problem, HullScratch& scratch) {
-  const SurfaceStep& step = problem.step;
-  if (!step.settings.collide_with_bones) return false;
-  const HullRow points = HullRow(step.points).first(step.asset->vertex_count);
-  const float distance = step.settings.contact_distance;
-  const std::size_t balls = (points.size() + kBallVertices - 1) / kBallVertices;
-  for (std::size_t i = 0; i < balls; ++i) {
-    const std::size_t first = i * kBallVertices;
-    scratch.balls[i] = ball_about(points.subspan(first, std::min(kBallVertices, points.size() - first)));
-  }
-  bool any = false;
-  for (std::size_t b = 0; b < scratch.bones.size(); ++b) {
-    const SurfaceBone& bone = scratch.bones[b];
-    if (bone.field == nullptr) continue;
-    const std::size_t near =
-        find_near_bone(bone, std::span(scratch.balls).first(balls), points, distance, scratch.near);
-    const std::uint32_t before = scratch.touches[b].vertices;
-    push_from_bone(bone, std::span(scratch.near).first(near), points, distance, 0.0f, step.points, scratch.touches[b]);
-    any = any || scratch.touches[b].vertices > 0;
-    // A muscle that is pressed and comes to rest beside the bone touches it.
-    scratch.touches[b].vertices = std::max(before, scratch.touches[b].vertices);
-  }
-  return any;
-}
-
 double restore_volume(const HullProblem& problem, HullScratch& scratch) {
   const SurfaceAsset& asset = *problem.step.asset;
   double volume = volume_now(problem, scratch.gradient);

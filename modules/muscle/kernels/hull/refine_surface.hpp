@@ -18,10 +18,6 @@ void attach_exactly(const HullProblem& problem, HullScratch& scratch);
 // One iteration; step.points. Returns how far the furthest vertex went (m).
 double refine_once(const HullProblem& problem, HullScratch& scratch);
 
-// Static intersection: every free vertex that is too near to a bone goes to its surface. `touches` counts them. Returns
-// whether there were any.
-bool push_out(const HullProblem& problem, HullScratch& scratch);
-
 // Brings the volume back to that at rest by a move that is least in the sum of squares. Returns it (m^3).
 double restore_volume(const HullProblem& problem, HullScratch& scratch);
 

@@ -2,29 +2,17 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+
+#include "modules/muscle/kernels/surface/way_into_bone.hpp"
 
 namespace fascicle::muscle {
 namespace {
 
-constexpr std::uint8_t kMostOfCluster = 8;
-constexpr float kNear = 0.003f;   // m beyond the contact distance
-constexpr float kShallow = 2.0f;  // voxels inside: deeper, the nearest surface need not be the one it came through
-constexpr int kBisections = 12;
+constexpr std::uint8_t kMostOfCluster = 8;  // contacts
+constexpr float kNear = 0.003f;             // m beyond the contact distance
 
 glm::vec3 apply(const glm::mat4& m, const glm::vec3& p) { return glm::vec3(m * glm::vec4(p, 1.0f)); }
-
-// Where the way from `outside` to `inside` comes as near as `distance`; all in the bone's frame.
-glm::vec3 way_in(const BoneField& field, const glm::vec3& outside, const glm::vec3& inside, float distance) {
-  float out = 0.0f, in = 1.0f;
-  for (int i = 0; i < kBisections; ++i) {
-    const float middle = 0.5f * (out + in);
-    (field.distance(glm::mix(outside, inside, middle)) < distance ? in : out) = middle;
-  }
-  return glm::mix(outside, inside, out);
-}
 
 // `from` and `to`: a sample before and after its move, in the bone's frame.
 bool touches(const SurfaceBone& bone, const glm::vec3& from, const glm::vec3& to, float distance,
@@ -43,16 +31,6 @@ bool touches(const SurfaceBone& bone, const glm::vec3& from, const glm::vec3& to
 }
 
 }  // namespace
-
-void place_bones(const SurfaceStep& step, std::span<SurfaceBone> bones) {
-  for (std::size_t b = 0; b < bones.size(); ++b) {
-    bones[b].field = step.fields[b];
-    if (bones[b].field == nullptr) continue;
-    const glm::dmat4 now = glm::dmat4(step.rest_to_bone[b]) * glm::inverse(glm::dmat4(step.bones[b].to));
-    bones[b].to_bone = bones[b].to_bone_before = glm::mat4(now);
-    bones[b].from_bone = glm::mat4(glm::inverse(now));
-  }
-}
 
 void find_contacts(const HullProblem& problem, HullRow before, HullScratch& scratch, HullState& state) {
   state.contacts.clear();

@@ -5,14 +5,9 @@
 // iteration, and so does one that is outside but near: it may come as near as it is allowed, and no nearer.
 #pragma once
 
-#include <span>
-
 #include "modules/muscle/kernels/hull/hull_problem.hpp"
 
 namespace fascicle::muscle {
-
-// Bones at the step's end.
-void place_bones(const SurfaceStep& step, std::span<SurfaceBone> bones);
 
 // Fills state.contacts, the deepest, kMostContacts at most and some of each cluster: a hull vertex that had one alone
 // would let go of it for the next, and so on in turns. `before`: where samples were before their

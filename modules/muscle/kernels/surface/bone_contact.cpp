@@ -7,25 +7,13 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "modules/muscle/kernels/surface/way_into_bone.hpp"
+
 namespace fascicle::muscle {
 namespace {
 
-// m inside, in voxels: deeper than this the nearest surface need not be the one that it came through.
-constexpr float kShallow = 2.0f;
-constexpr int kBisections = 12;
-
 glm::vec3 place(const SurfacePoint& p) { return {p.x, p.y, p.z}; }
 glm::vec3 apply(const glm::mat4& m, const glm::vec3& p) { return glm::vec3(m * glm::vec4(p, 1.0f)); }
-
-// Where the way from `outside` to `inside` comes as near as `distance`.
-glm::vec3 way_in(const BoneField& field, const glm::vec3& outside, const glm::vec3& inside, float distance) {
-  float out = 0.0f, in = 1.0f;
-  for (int i = 0; i < kBisections; ++i) {
-    const float middle = 0.5f * (out + in);
-    (field.distance(glm::mix(outside, inside, middle)) < distance ? in : out) = middle;
-  }
-  return glm::mix(outside, inside, out);
-}
 
 }  // namespace
 
