@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/muscle/kernels/hull/newton_step.hpp"
-#include "modules/muscle/kernels/hull/sample_contacts.hpp"
+#include "modules/muscle/kernels/hull/push_out.hpp"
 #include "tests/modules/muscle/kernels/hull/posed_spindle.hpp"
 
 namespace fascicle::muscle {
